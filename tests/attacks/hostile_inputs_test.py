@@ -26,12 +26,18 @@ bodies:
   disc: {position: [0, 2, 0], rigid: {mass: 1, inertia: [0.1, 0.1, 0.1]}}
   stone: {position: [0, 3, 0], rigid: {mass: 1, inertia: [0.1, 0.1, 0.1]}}
   brick: {position: [0, 4, 0], rigid: {mass: 1, inertia: [0.1, 0.1, 0.1]}}
+  lump: {position: [0, 5, 0], rigid: {mass: 1, inertia: [0.1, 0.1, 0.1]}}
+  nut: {position: [0, 6, 0], rigid: {mass: 1, inertia: [0.1, 0.1, 0.1]}}
 joints:
   hinge: {type: revolute, child: arm, at: [0, 0, 0], axis: y}
   slide: {type: prismatic, child: box, at: [0, 1, 0], axis: x}
-  ball: {type: spherical, child: stone, at: [0, 3, 0.1]}
+  ball: {type: spherical, child: stone, at: [0, 3, 0.1]<onball: >}
   both: {type: revolute, child: disc, at: [0, 2, 0], axis: y, motion: <motion: 0>}
-  fix: {type: weld, child: brick, at: [0, 4, 0]}
+  fix: {type: weld, child: brick, at: [0, 4, 0]<onweld: >}
+  rail: {type: prismatic, child: lump, at: [0, 5, 0], axis: x, stops: <stops: {upper: 1, stiffness: 1000}>,
+    friction: <friction: {breakaway: 1, stiffness: 1.0e+4}>}
+  tube: {type: cylindrical, child: nut, at: [0, 6, 0], axis: x, stops: <many: {angle: {upper: 3, stiffness: 10}}>,
+    friction: <rub: {displacement: {breakaway: 1, stiffness: 1.0e+4}}>}
 measures: {tip: {position: {body: arm, at: [0.6, 0, 0]}}, q: <measure: {joint_position: hinge}>}
 tables: {gas: {table: [[0, 3], [1, 4]]}, map: {grid: {x: [0, 1], y: [0, 1], values: [[1, 2], [3, 4]]}}, bad: <table: {polynomial: [1]}>}
 forces:
@@ -39,7 +45,7 @@ forces:
   wall: {type: force_law, joint: slide, law: {formula: <law: x>}}
   spring: {type: spring_damper, from: {body: ground, at: [0, 0, 2]}, to: {body: arm, at: [0.3, 0, 0]}, spring: 10}
   push: {type: force, body: box, direction: [1, 0, 0], magnitude: <time: 1>}
-  both: {type: joint_spring, joint: slide, damper: 1}
+  both: <force: {type: joint_spring, joint: slide, damper: 1}>
 controllers: {b: <controller: {type: limiter, input: 3, lower: 0}>}
 outputs: {tip_z: {position: {body: arm, at: [0.6, 0, 0]}, axis: z}, calc: {formula: "tip.z"}, bad: <output: {formula: "t"}>}
 simulation: {step: 1.0e-3, duration: 0.1}

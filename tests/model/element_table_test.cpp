@@ -43,6 +43,8 @@ std::string value_text(const ElementKey& key) {
       return "body; and `at`, a point (default: its frame origin), or `node`";
     case K::joint:
       return "joint";
+    case K::coordinate:
+      return "name of one of its [coordinates](#joints)";
     case K::road:
       return "[road](#roads)";
     case K::direction:

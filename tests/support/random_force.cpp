@@ -25,6 +25,8 @@ ElementDescription random_force(ElementType type, const RandomForceEnds& ends,
       case K::joint:
         if (!key.required) return std::nullopt;  // instead of places
         return ends.joint;
+      case K::coordinate:  // the only one
+        return std::nullopt;
       case K::road:
         return ends.road;
       case K::direction:
@@ -99,6 +101,8 @@ ElementDescription random_force(ElementType type, const RandomForceEnds& ends,
   };
   for (const ElementKey& key : element_keys(type))
     if (const auto x = value(key)) set_key_value(f, key, *x);
+  if (auto* stop = std::get_if<JointStop>(&f.kind); stop && *stop->upper < *stop->lower)
+    std::swap(stop->lower, stop->upper);
   return f;
 }
 

@@ -116,12 +116,13 @@ struct Bearing {
   MatX speed_table;  ///< n x 9, added to both over the spin
 };
 
-/// Friction on the coordinate of a revolute or prismatic joint: bristles with the deflection z and
-/// a normal force N as a factor: F = N (stiffness z + damping zdot) + viscous qdot, against the
-/// motion. Sliding at a constant speed it is N (kinetic + (breakaway - kinetic) exp(-(qdot /
-/// stribeck)^2)) + viscous qdot.
+/// Friction on a coordinate of a joint: bristles with the deflection z and a normal force N as a
+/// factor: F = N radius (stiffness z + damping zdot) + viscous qdot, against the motion. Sliding at
+/// a constant speed it is N radius (kinetic + (breakaway - kinetic) exp(-(qdot / stribeck)^2)) +
+/// viscous qdot. N = normal + preload, never below 0; 1 without both.
 struct BristleFriction {
   std::string joint;
+  int coordinate = -1;            ///< its number from 0; -1: the only one
   double breakaway = 0.0;         ///< [N] or [N m], per unit of N
   std::optional<double> kinetic;  ///< the same while it slides; absent: equal to breakaway
   double stribeck = 0.0;          ///< [m/s] or [rad/s]; 0: kinetic at any speed
@@ -129,7 +130,9 @@ struct BristleFriction {
   double damping = 0.0;           ///< [N s/m] or [N m s/rad], per unit of N
   double viscous = 0.0;           ///< [N s/m] or [N m s/rad]
   double elastic = 0.95;  ///< of the largest deflection, up to which the bristles do not slide
-  std::optional<SignalDescription> normal;  ///< N; absent: 1
+  std::optional<SignalDescription> normal;  ///< absent: 0
+  std::optional<double> preload;            ///< a part of N, not negative [N]; absent: 0
+  double radius = 1.0;                      ///< of the faces of a brake or clutch [m]
 };
 
 /// Pushes two points apart that are closer than `length`, with the compression d = length - s:
@@ -142,6 +145,18 @@ struct UnilateralSpring {
   double exponent = 1.0;
   double restitution = 1.0;   ///< in (0, 1]
   double least_speed = 0.01;  ///< slower contacts are damped as one at this speed [m/s]
+};
+
+/// Stops of a coordinate q of a joint: contacts below `lower` and above `upper`, with the
+/// compression d = lower - q or q - upper and the law of a UnilateralSpring.
+struct JointStop {
+  std::string joint;
+  int coordinate = -1;                 ///< its number from 0; -1: the only one
+  std::optional<double> lower, upper;  ///< at least one of them [m] or [rad]
+  double stiffness = 0.0;              ///< [N/m^exponent] or [N m/rad^exponent]
+  double exponent = 1.0;
+  double restitution = 1.0;   ///< in (0, 1]
+  double least_speed = 0.01;  ///< slower contacts are damped as one at this speed [m/s] or [rad/s]
 };
 
 /// Without mass, keeps the distance between two points, or prescribes it: a stiff cylinder.
@@ -310,7 +325,8 @@ struct Delay {
   entry(rate_limiter, RateLimiter)      \
   entry(hysteresis, Hysteresis)         \
   entry(zero_order_hold, ZeroOrderHold) \
-  entry(delay, Delay)
+  entry(delay, Delay)                   \
+  entry(joint_stop, JointStop)
 // clang-format on
 
 #define FLOATFRAME_ENTRY(name, Keys) name,

@@ -280,6 +280,22 @@ std::string undrivable_coordinate(const std::string& type) {
          "row, or a universal joint";
 }
 
+std::string coordinate_of_rotation_vector(const std::string& type) {
+  return "found the rotation vector of a " + type +
+         " joint, expected a displacement, or an angle about an axis: revolute joints in a row, or "
+         "a universal joint";
+}
+
+std::string joint_without_coordinates(const std::string& type) {
+  return "found a " + type + " joint, expected one with a coordinate";
+}
+
+std::string no_stop() { return "found neither 'lower' nor 'upper', expected at least one of them"; }
+
+std::string stops_ascend(double lower, double upper) {
+  return "found " + number_text(upper) + ", expected more than 'lower', " + number_text(lower);
+}
+
 std::string keep_without_start_value() {
   return "found without 'position' and 'velocity', expected one of them to keep";
 }

@@ -140,6 +140,11 @@ std::string rod_motion(double length);
 std::string driven_twice(const std::string& coordinate);
 /// Components of rotation vectors.
 std::string undrivable_coordinate(const std::string& type);
+/// An element on a component of one.
+std::string coordinate_of_rotation_vector(const std::string& type);
+std::string joint_without_coordinates(const std::string& type);
+std::string no_stop();
+std::string stops_ascend(double lower, double upper);
 std::string keep_without_start_value();
 std::string weld_has_no_coordinates();
 std::string not_used_by_joint(const std::string& type);

@@ -19,6 +19,7 @@ enum class KeyKind {
   place,             ///< {body, at} or {body, node}, also on the ground
   own_place,         ///< `body`, and `at` or `node`, among the keys of the force; not on the ground
   joint,             ///< the name of one
+  coordinate,        ///< the name of one of the joint that the key `joint` names, from 0; -1: none
   road,              ///< the name of one
   direction,         ///< its length does not matter
   vector,            ///< the same, but used as given

@@ -91,6 +91,8 @@ struct ElementKind {
   const char* about;  ///< its function: for the documentation, a phrase in Markdown
   std::span<const ElementKey> keys;
   ElementList list = ElementList::forces;
+  /// The key of joints that holds its keys but the joint and its coordinate; null: none.
+  const char* joint_word = nullptr;
   EnergyCategory energy = EnergyCategory::springs;
   /// The units of its results.
   ElementAxis axis = ElementAxis::along;
@@ -109,6 +111,8 @@ struct ElementKind {
                std::vector<ConstraintPart>& parts) = nullptr;
   /// Changes of the mirrored element besides mirrored points and directions.
   void (*mirror)(ElementDescription& element, const Placement& x) = nullptr;
+  /// Changes of the mirrored element if its coordinate of a joint changes the sign.
+  void (*reverse)(ElementDescription& element) = nullptr;
   /// States and kept numbers of an element with these keys; null: none.
   void (*states)(Element& element) = nullptr;
   /// The names of its values, if there are several (`value_names`).
@@ -128,6 +132,8 @@ struct ElementKind {
   bool along_line = false;  ///< acts along the line between its ends, which is undefined if they
                             ///< coincide, unless it has a joint
   bool bears = false;       ///< `is_bearing`
+  bool contact = false;     ///< with a restitution at the speed of a touch, which is its first kept
+                            ///< number, and the key `least_speed`
   /// `lifted_by`: the last signal, which belongs to no key, lifts it.
   const char* lifted = nullptr;
   /// Why its force is not a number there; for messages.
@@ -177,6 +183,20 @@ Mat3 element_axes(const ElementView& values);
 void validate_framed(const ElementCheck& check);
 /// Its joint has one coordinate.
 void validate_coordinate(const ElementCheck& check);
+/// A joint, and which of its coordinates.
+constexpr ElementKey joint_key(KeyMember member) {
+  return {.name = "joint",
+          .kind = KeyKind::joint,
+          .about = "one with a coordinate q",
+          .required = true,
+          .member = member};
+}
+constexpr ElementKey coordinate_key(KeyMember member) {
+  return {.name = "coordinate",
+          .kind = KeyKind::coordinate,
+          .about = "which one, if the joint has several",
+          .member = member};
+}
 /// The keys of an applied load, whose struct is L: a force along, or a torque about the direction.
 template <class L>
 constexpr std::array<ElementKey, 4> load_keys(ElementAxis axis) {

@@ -5,6 +5,9 @@
 //     along           s = z.d (axis_measure.hpp)
 //     about           s = angle of x_b about z, followed over several turns; g = (0, -z, 0, z),
 //                     sdot = z.(w_b - w_a)
+//   of any joint    a displacement along a direction of a, the angle about z, or one of the angles
+//                   about e of a and n of b (constraints/drive_axis_angle.cpp), each within half a
+//                   turn of 0; g of these as there
 #include "floatframe/model/axis_measure.hpp"
 #include "floatframe/model/element_kind.hpp"
 
@@ -68,6 +71,50 @@ AxisMeasure<S> coordinate_measure(const PortsOf<S>& in) noexcept {
   return {angle_about_z<S>(a, b, in.reference_angle), z.dot(b.w - a.w), {{zero, -z}, {zero, z}}};
 }
 
+/// A coordinate of a joint with any number of them, but no component of a rotation vector.
+struct MeasuredCoordinate {
+  enum class Of { displacement, common_angle, first_angle, second_angle } of = Of::common_angle;
+  Vec3 e = Vec3::UnitZ();  ///< in a: the direction of a displacement, or the first axis
+  Vec3 n = Vec3::UnitX();  ///< in b: the second axis
+};
+/// Of a joint as it is built.
+MeasuredCoordinate measured_coordinate(const Joint& joint, int component);
+
+/// An angle about one of two axes. With p the axis and r the other one, r0 as drawn, k = p.r:
+/// alpha = +-atan2(r.(p x r0), r.(r0 - k p)) and g = (p - k r) / (1 - k^2).
+template <class S, class Marker>
+AxisMeasure<S> axis_angle_measure(const MeasuredCoordinate& c, const Marker& a,
+                                  const Marker& b) noexcept {
+  using V = Eigen::Matrix<S, 3, 1>;
+  using std::atan2;
+  const bool second = c.of == MeasuredCoordinate::Of::second_angle;
+  const V e_a = c.e.template cast<S>(), n_b = c.n.template cast<S>();
+  const V e = a.R * e_a, n = b.R * n_b;
+  const V &p = second ? n : e, &r = second ? e : n;
+  const V r0 = second ? V(b.R * e_a) : V(a.R * n_b);
+  const S k = p.dot(r);
+  const V across = p - k * r, g = across / S(1.0 - k * k), level = r0 - p.dot(r0) * p;
+  const S angle = atan2(S(r.dot(p.cross(r0))), S(r.dot(level)));
+  const V zero = V::Zero();
+  return {second ? S(-angle) : angle, g.dot(V(b.w - a.w)), {{zero, -g}, {zero, g}}};
+}
+
+template <class S, class Marker>
+AxisMeasure<S> coordinate_measure(const MeasuredCoordinate& c, const Marker& a, const Marker& b,
+                                  double reference) noexcept {
+  using Of = MeasuredCoordinate::Of;
+  using V = Eigen::Matrix<S, 3, 1>;
+  if (c.of == Of::displacement) return axis_measure(V(a.R * V(c.e.template cast<S>())), a, b);
+  if (c.of != Of::common_angle) return axis_angle_measure<S>(c, a, b);
+  const V z = a.R.col(2), zero = V::Zero();
+  return {angle_about_z<S>(a, b, reference), z.dot(b.w - a.w), {{zero, -z}, {zero, z}}};
+}
+/// Between the first two markers.
+template <class S>
+AxisMeasure<S> coordinate_measure(const PortsOf<S>& in, const MeasuredCoordinate& c) noexcept {
+  return coordinate_measure<S>(c, in.marker(0), in.marker(1), in.reference_angle);
+}
+
 /// A force of the slopes k and c against the coordinate: the rows k g g^T and c g g^T.
 template <class S>
 void pull_back(const AxisMeasure<S>& m, const S& force, double k, double c,
@@ -103,5 +150,11 @@ Picture picture_of_line(const Element& element);
 void validate_coordinate(const ElementCheck& check);
 bool build_coordinate(ElementBuild& build);
 Picture picture_of_coordinate(const Element& element);
+
+// Of an element with the keys `joint` and `coordinate`.
+/// The coordinate is one of the joint and no component of a rotation vector.
+void validate_any_coordinate(const ElementCheck& check);
+/// None after an error.
+std::optional<MeasuredCoordinate> build_any_coordinate(ElementBuild& build);
 
 }  // namespace floatframe

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "floatframe/core/content_hash.hpp"
+#include "floatframe/core/enum_index.hpp"
 #include "floatframe/model_file/instance_parameters.hpp"
 #include "floatframe/model_file/read_parts.hpp"
 
@@ -80,6 +81,9 @@ class Loader {
                                      value.path()))
         active = false;
       self.names[kind].emplace(name, active);
+      if (kind == index_of(EntityKind::joint) && value.is_map())
+        for (const std::string& element : joint_element_names(name, value.node()))
+          self.names[index_of(EntityKind::force)].emplace(element, active);
     }
   }
 

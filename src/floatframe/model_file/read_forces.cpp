@@ -1,15 +1,11 @@
-// Elements and roads.
+// Elements.
 #include <algorithm>
-#include <limits>
 
-#include "floatframe/description/road_spectrum.hpp"
-#include "floatframe/description/rules.hpp"
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/joint_kind.hpp"
 #include "floatframe/model_file/linear_file.hpp"
 #include "floatframe/model_file/read_parts.hpp"
-#include "floatframe/yaml/read_table.hpp"
 
 namespace floatframe {
 namespace {
@@ -20,9 +16,15 @@ class ElementReader {
   ElementReader(const ModelInstance& self, ReadModel& model, YamlSection& s, ElementDescription& f)
       : self_(self), model_(model), s_(s), f_(f), check_(f) {}
 
-  void read() {
+  /// `on`: the coordinate that it acts on, of which its keys say nothing.
+  void read(const CoordinateTerm* on) {
     const ElementKind& kind = element_kind(f_.type());
     for (const ElementKey& key : kind.keys) {
+      if (on && (key.kind == KeyKind::joint || key.kind == KeyKind::coordinate)) {
+        set_key_value(f_, key,
+                      key.kind == KeyKind::joint ? KeyValue(on->joint) : KeyValue(on->coordinate));
+        continue;
+      }
       const std::size_t before = self_.context.errors->size();
       if (const auto value = read(key)) set_key_value(f_, key, *value);
       if (self_.context.errors->size() != before) check_.wrong.insert(key.name);
@@ -35,9 +37,17 @@ class ElementReader {
     check_.written = [&](const std::string& name) { return self_.written(name); };
     check_.joint_type = [&](const std::string& joint) { return joint_type(joint); };
     if (kind.validate) kind.validate(check_);
+    if (kind.reverse && reversed()) kind.reverse(f_);
   }
 
  private:
+  /// The sign of its coordinate changes in the mirrored file.
+  bool reversed() const {
+    for (const CoordinateTerm& of : check_.coordinates())
+      if (const auto type = joint_type(of.joint))
+        return mirrored_sign(*type, std::max(0, of.coordinate), self_.world) < 0.0;
+    return false;
+  }
   std::optional<JointType> joint_type(const std::string& joint) const {
     const auto it = model_.joints.find(joint);
     return it == model_.joints.end() ? std::nullopt : std::optional(it->second);
@@ -138,6 +148,17 @@ class ElementReader {
     return KeyValue(std::move(all));
   }
 
+  /// Of the joint read before.
+  std::optional<KeyValue> coordinate(const YamlValue& value) const {
+    const std::vector<CoordinateTerm> of = check_.coordinates();
+    const auto type = of.empty() ? std::nullopt : joint_type(of[0].joint);
+    std::vector<std::string> words;
+    for (int k = 0; type && k < joint_velocities(*type); ++k)
+      words.push_back(joint_coordinate_key(*type, k));
+    const auto k = words.empty() ? std::nullopt : value.word(words);
+    return k ? std::optional(KeyValue(static_cast<int>(*k))) : std::nullopt;
+  }
+
   /// Factors of a mirrored file are those of the mirrored joints.
   std::optional<KeyValue> terms(const YamlValue& value) const {
     std::vector<CoordinateTerm> all;
@@ -179,6 +200,8 @@ class ElementReader {
         return place_of(*value);
       case K::joint:
         return self_.reference(EntityKind::joint, *value);
+      case K::coordinate:
+        return coordinate(*value);
       case K::road:
         return self_.reference(EntityKind::road, *value);
       case K::direction:
@@ -245,43 +268,19 @@ class ElementReader {
   std::vector<std::string> file_inputs_;
 };
 
-/// Points [x, z] of a road; two with the same x are a step.
-PiecewisePolynomial read_profile(const YamlValue& value) {
-  const TableRows table = read_table_rows(value, any_number("m"), "a point [x, z] [m]");
-  if (table.good && table.rows.empty())
-    value.error(ErrorCode::missing,
-                value.is_list() ? "found an empty list, expected points [x, z]"
-                                : "found no rows in '" + table.file + "', expected points x, z");
-  std::vector<TablePoint> points;
-  for (const TableRow& row : table.rows) {
-    const double x = row.point.x;
-    const std::size_t n = points.size();
-    if (n > 0 && x < points.back().x)
-      table.error(ErrorCode::wrong_value, row,
-                  "found x = " + number_text(x) + " after " + number_text(points.back().x) +
-                      ", expected x that does not decrease [m]");
-    else if (n > 1 && x == points[n - 1].x && x == points[n - 2].x)
-      table.error(ErrorCode::duplicate, row,
-                  "found x = " + number_text(x) + " a third time, expected two points at a jump");
-    else
-      points.push_back(row.point);
-  }
-  return points.empty() ? PiecewisePolynomial() : profile_function(points);
-}
+}  // namespace
 
 ElementDescription read_element(const ModelInstance& self, const std::string& name, YamlSection& s,
-                                ElementType type, ReadModel& model) {
+                                ElementType type, ReadModel& model, const CoordinateTerm* on) {
   ElementDescription e;
   e.name = self.prefix + name;
   e.origin = s.origin();
   e.kind = element_kind(type).blank();
-  ElementReader(self, model, s, e).read();
+  ElementReader(self, model, s, e).read(on);
   s.finish();
   place(e, self.world);
   return e;
 }
-
-}  // namespace
 
 // Lists of one type, which no key names.
 
@@ -333,59 +332,6 @@ void read_forces(const ModelInstance& self, ReadModel& model) {
 void read_controllers(const ModelInstance& self, ReadModel& model) {
   read_typed(self, model, ElementList::controllers, EntityKind::controller,
              model.description.controllers);
-}
-
-namespace {
-
-/// {class or roughness, start, length, seed}
-std::optional<RoadSpectrum> read_spectrum(const YamlValue& value) {
-  auto s = value.section("a map with class (or roughness), length and seed");
-  if (!s) return std::nullopt;
-  RoadSpectrum spectrum;
-  const std::size_t before = value.context().errors->size();
-  const auto word = s->get("class");
-  const auto number = s->get("roughness");
-  if (word && number) {
-    number->error(ErrorCode::exclusive, "excludes 'class'; remove one of them");
-  } else if (number) {
-    spectrum.roughness = number->number(non_negative_number("m3")).value_or(0.0);
-  } else if (const auto found = s->require("class")) {
-    const auto place = found->word(road_classes::names);
-    if (place) spectrum.roughness = road_classes::roughness(static_cast<int>(*place));
-  }
-  spectrum.start = s->number("start", any_number("m"), 0.0);
-  spectrum.length = s->required_number("length", rules::random_road_length, 100.0);
-  if (const auto seed = s->get("seed"))
-    spectrum.seed = seed->integer(0, std::numeric_limits<int>::max(), "a whole number").value_or(1);
-  s->finish();
-  if (value.context().errors->size() != before) return std::nullopt;
-  return spectrum;
-}
-
-}  // namespace
-
-void read_roads(const ModelInstance& self, ReadModel& model) {
-  for (auto& [name, s] : active_entities(self, EntityKind::road)) {
-    RoadDescription r;
-    r.name = self.prefix + name;
-    r.origin = s.origin();
-    if (const auto v = s.get("profile")) r.pieces = read_profile(*v);
-    if (const auto v = s.get("spectrum"))
-      if (const auto spectrum = read_spectrum(*v)) r.pieces = r.pieces + random_road(*spectrum);
-    if (const auto v = s.get("bumps"))
-      for (const YamlValue& item : v->list("a list of bumps {start, length, height}")) {
-        auto b = item.section("a bump {start, length, height}");
-        if (!b) continue;
-        CosineBump bump;
-        bump.start = b->required_number("start", any_number("m"), 0.0);
-        bump.length = b->required_number("length", rules::bump_length, 1.0);
-        bump.height = b->required_number("height", any_number("m"), 0.0);
-        b->finish();
-        r.bumps.push_back(bump);
-      }
-    s.finish();
-    model.description.roads.push_back(std::move(r));
-  }
 }
 
 }  // namespace floatframe

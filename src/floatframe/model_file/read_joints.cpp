@@ -150,6 +150,7 @@ void read_joint(const ModelInstance& self, const std::string& name, YamlSection&
   if (!type) {
     for (const char* key : {"axis", "axis_2", "position", "velocity", "keep", "motion", "cut"})
       s.get(key);
+    for (const char* key : joint_element_keys()) s.get(key);
     s.finish();
     return;
   }
@@ -173,10 +174,11 @@ void read_joint(const ModelInstance& self, const std::string& name, YamlSection&
       read_motions(self, *v, j);
   }
   j.cut = s.boolean("cut", false);
+  model.joints.emplace(j.name, j.type);
+  read_joint_elements(self, name, j.type, s, model);
   s.finish();
   validate_entity(s, j.origin,
                   [&](const validation::Entity& entity) { validation::joint_values(j, entity); });
-  model.joints.emplace(j.name, j.type);
   place(j, self.world);
   model.description.joints.push_back(std::move(j));
 }

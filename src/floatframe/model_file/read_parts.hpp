@@ -55,6 +55,19 @@ void read_simulation(const ModelInstance& self, ReadModel& model);
 /// x, y, z of every rigid body.
 void default_outputs(ReadModel& model);
 
+/// An element from the section of its keys. `on`: the coordinate that it acts on, if it is one that
+/// a key of a joint describes.
+ElementDescription read_element(const ModelInstance& self, const std::string& name,
+                                YamlSection& section, ElementType type, ReadModel& model,
+                                const CoordinateTerm* on = nullptr);
+/// The elements that keys of a joint describe.
+void read_joint_elements(const ModelInstance& self, const std::string& joint, JointType type,
+                         YamlSection& section, ReadModel& model);
+/// Their names, as written in the file of the joint, from its keys there.
+std::vector<std::string> joint_element_names(const std::string& joint, const YamlNode& keys);
+/// The keys of such elements.
+std::vector<const char*> joint_element_keys();
+
 /// A body, not the ground.
 std::optional<std::string> read_moving_body(const ModelInstance& self, const YamlValue& value);
 /// {body, node: name or number} or {body, at: point}, with `layer`, `material`, `toward` and

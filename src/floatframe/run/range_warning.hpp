@@ -18,12 +18,13 @@ enum class RangeLimit {
   damping,       ///< numerical damping takes too much energy
   balance,       ///< the energy balance does not close
   branch,        ///< the mechanism passed a singular configuration, where it may branch
-  half_turn      ///< the rotation measured by a force element exceeded half a turn
+  half_turn,     ///< the rotation measured by a force element exceeded half a turn
+  contact        ///< a contact lasts for too few steps
 };
 /// In this order.
-inline constexpr std::array<const char*, 11> range_limit_names{
-    "displacement", "rotation", "spin",    "turn",   "phase",    "sine",
-    "table",        "damping",  "balance", "branch", "half_turn"};
+inline constexpr std::array<const char*, 12> range_limit_names{
+    "displacement", "rotation", "spin",    "turn",   "phase",     "sine",
+    "table",        "damping",  "balance", "branch", "half_turn", "contact"};
 
 struct RangeWarning {
   RangeLimit limit = RangeLimit::displacement;

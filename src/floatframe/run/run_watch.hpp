@@ -10,6 +10,7 @@
 #include "floatframe/formulation/formulation.hpp"
 #include "floatframe/integrator/step.hpp"
 #include "floatframe/run/branch_watch.hpp"
+#include "floatframe/run/contact_watch.hpp"
 #include "floatframe/run/energy_balance.hpp"
 #include "floatframe/run/health.hpp"
 #include "floatframe/run/motion_watch.hpp"
@@ -23,6 +24,7 @@ class RunWatch {
       : f_(formulation),
         watch_(formulation.model(), step),
         branches_(step, formulation.configurations()),
+        contacts_(formulation.model(), step),
         every_(std::max(1L, records / energy_checks)) {
     double total = 0.0;
     for (const Body& b : f_.model().bodies) mass_.push_back(b.data->invariants.m);
@@ -58,7 +60,10 @@ class RunWatch {
     }
     const SystemMotion& motion = f_.motion();
     balance_.advance(s.t, flows(motion, f_.constraint_set(), reactions));
-    if (full) watch_.follow(motion);
+    if (full) {
+      watch_.follow(motion);
+      contacts_.follow(motion);
+    }
     if (!sampled) return;
     watch_.look(motion);
     if (++records_ % every_ == 0) balance_.check(s.t, energies(s));
@@ -93,6 +98,7 @@ class RunWatch {
     balance_.serialize(s);
     watch_.serialize(s);
     branches_.serialize(s);
+    contacts_.serialize(s);
     effort_.serialize(s);
     s(records_);
   }
@@ -107,6 +113,7 @@ class RunWatch {
     out.energy.balanced = true;
     balance_.write(out.energy);
     out.warnings = watch_.range().warnings(out.energy, spectral_radius, corners);
+    contacts_.warn(out.warnings);
     if (branch) out.warnings.push_back(*branch);
   }
 
@@ -154,6 +161,7 @@ class RunWatch {
   Formulation& f_;
   MotionWatch watch_;
   BranchWatch branches_;
+  ContactWatch contacts_;
   EnergyBalance balance_;
   HealthEffort effort_;
   std::vector<double> mass_;  ///< of the bodies, for the energy of their motion [kg]

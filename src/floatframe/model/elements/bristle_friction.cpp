@@ -3,6 +3,7 @@
 //   zdot = v - a(z, v) |v| z / z_s(v),   z_s = g(v) / sigma_0                                  (1)
 //   g    = kinetic + (breakaway - kinetic) exp(-(v / stribeck)^2)                              (2)
 //   F    = N (sigma_0 z + sigma_1 zdot) + viscous v,  -F acts on the coordinate               (3)
+//   N    = radius max(0, normal + preload); radius without both
 // a = 0 up to the deflection z_e = elastic z_s, where the bristles only bend, so nothing creeps
 // below breakaway; 1 from z_s on, where all of them slide; between them half a wave of the sine;
 // and 0 where v brings z back. elastic = 0: a = 1, the LuGre model, which creeps under loads that
@@ -53,12 +54,21 @@ S bristle_rate(const BristleFriction& keys, const S& z, const S& v) noexcept {
                  ((value_of(z) > 0.0) == (value_of(v) > 0.0) ? 1.0 : -1.0);
 }
 
+/// N
+template <class S>
+S normal_of_bristles(const BristleFriction& keys, const PortsOf<S>& in) noexcept {
+  const bool clamped = in.element.signals[0].given;
+  if (!clamped && !keys.preload) return keys.radius;
+  const S normal = in.signal(0).f + keys.preload.value_or(0.0);
+  return value_of(normal) > 0.0 ? S(keys.radius * normal) : S(0.0);
+}
+
 template <class S>
 void bristle_friction_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
   const auto& keys = in.template keys<BristleFriction>();
-  const AxisMeasure<S> m = coordinate_measure(in);
+  const AxisMeasure<S> m = coordinate_measure(in, in.template data<MeasuredCoordinate>());
   const bool clamped = in.element.signals[0].given;
-  const S clamp = clamped ? in.signal(0).f : S(1.0), normal = clamp > 0.0 ? clamp : S(0.0);
+  const S normal = normal_of_bristles(keys, in);
   const S z = in.state(0), v = m.rate, flow = bristle_rate(keys, z, v);
   out.state_rates[0] = flow;
   double slope = 0.0;
@@ -73,8 +83,8 @@ void bristle_friction_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
             slope, out);
   // What a clamp that varies stores in the bristles counts as dissipated.
   if (!clamped) {
-    out.energy = 0.5 * keys.stiffness * z * z;
-    out.energy_rate = keys.stiffness * z * flow;
+    out.energy = 0.5 * keys.stiffness * normal * z * z;
+    out.energy_rate = keys.stiffness * normal * z * flow;
   }
   out.damping = out.force * v - out.energy_rate;
 }
@@ -85,7 +95,6 @@ FLOATFRAME_LAW(bristle_friction)
 
 namespace {
 
-constexpr ElementAxis on_joint = ElementAxis::coordinate;
 constexpr ElementKey number_key(const char* name, const char* about, NumberRule rule,
                                 double fallback, KeyMember member, bool required = false) {
   return {.name = name,
@@ -97,11 +106,8 @@ constexpr ElementKey number_key(const char* name, const char* about, NumberRule 
           .member = member};
 }
 constexpr ElementKey bristle_friction_keys[] = {
-    {.name = "joint",
-     .kind = KeyKind::joint,
-     .about = "one with one coordinate q",
-     .required = true,
-     .member = described_by<&BristleFriction::joint>},
+    joint_key(described_by<&BristleFriction::joint>),
+    coordinate_key(described_by<&BristleFriction::coordinate>),
     number_key("breakaway", "friction at which it begins to slide, times `normal`",
                positive_number("N or N m"), 0.0, described_by<&BristleFriction::breakaway>, true),
     number_key("kinetic", "the same while it slides; without it `breakaway`",
@@ -120,11 +126,16 @@ constexpr ElementKey bristle_friction_keys[] = {
                "which creeps under loads that vary",
                {"a number from 0 to 0.999", "", 0.0, 0.999}, 0.95,
                described_by<&BristleFriction::elastic>),
-    law_key("normal", KeyKind::load, "a factor of the friction, not negative: a normal force [N]",
-            described_by<&BristleFriction::normal>, on_joint)};
+    law_key("normal", KeyKind::load,
+            "a factor of the friction, not negative: a normal or clamping force [N]",
+            described_by<&BristleFriction::normal>, ElementAxis::along),
+    number_key("preload", "added to `normal`", non_negative_number("N"), no_number,
+               described_by<&BristleFriction::preload>),
+    number_key("radius", "a factor of `normal`: the lever arm of a brake or clutch",
+               positive_number("m"), 1.0, described_by<&BristleFriction::radius>)};
 
 void bristle_friction_validate(const ElementCheck& check) {
-  validate_coordinate(check);
+  validate_any_coordinate(check);
   if (const auto normal = check.good("normal") ? check.signal("normal") : std::nullopt)
     if (const auto complaint = sentences::normal_force(*normal))
       check.error(ErrorCode::out_of_range, "normal", *complaint);
@@ -134,11 +145,18 @@ void bristle_friction_validate(const ElementCheck& check) {
     check.error(ErrorCode::out_of_range, "kinetic", *complaint);
 }
 
+bool bristle_friction_build(ElementBuild& build) {
+  const auto coordinate = build_any_coordinate(build);
+  if (!coordinate) return false;
+  build.element.data = std::make_shared<const MeasuredCoordinate>(*coordinate);
+  return true;
+}
+
 /// A joint that moves at a start slides: faster than this [m/s or rad/s].
 constexpr double least_sliding = 1e-3;
 
 void bristle_friction_start(const Ports& in, double* states) noexcept {
-  const double v = coordinate_measure(in).rate;
+  const double v = coordinate_measure(in, in.data<MeasuredCoordinate>()).rate;
   const auto& keys = in.keys<BristleFriction>();
   states[0] = std::abs(v) < least_sliding ? 0.0 : std::copysign(largest_deflection(keys, v), v);
 }
@@ -148,6 +166,7 @@ constexpr ElementRegime bristle_friction_regimes[] = {
     {.name = "sticks", .rows_leave_out = turning_axis_of_friction, .conservative = false},
     {.name = "slides_about", .rows_leave_out = turning_axis_of_friction, .conservative = false},
     {.name = "lugre_along", .rows_leave_out = turning_axis_of_friction, .conservative = false},
+    {.name = "about_first_axis", .rows_leave_out = turning_axis_of_friction, .conservative = false},
     {.name = "clamped", .rows_leave_out = turning_axis_of_friction, .conservative = false}};
 
 ElementExample bristle_friction_example(std::size_t regime, ExampleNumbers& numbers) {
@@ -160,12 +179,18 @@ ElementExample bristle_friction_example(std::size_t regime, ExampleNumbers& numb
   f.damping = numbers(0.1, 0.5);
   f.viscous = numbers(0.1, 0.5);
   f.elastic = regime == 2 ? 0.0 : regime == 1 ? 0.2 : 0.9;
-  const bool about = regime == 1;
+  const bool about = regime == 1, first = regime == 3;
   const MarkerState a = numbers.marker();
   x.markers = {a, about ? numbers.marker_on_axis(a) : numbers.marker()};
-  if (regime == 3) f.normal = x.linked_signal(numbers);
+  MeasuredCoordinate on;
+  if (!about) on = {MeasuredCoordinate::Of::displacement, numbers.direction(), Vec3::UnitX()};
+  if (first) on = {MeasuredCoordinate::Of::first_angle, Vec3::UnitZ(), Vec3(0.96, 0.0, 0.28)};
+  if (regime == 4) f.normal = x.linked_signal(numbers);
+  if (regime >= 3) f.preload = numbers(60.0, 80.0);
+  if (regime >= 3) f.radius = numbers(0.01, 0.02);
   x.keys(f);
-  x.element.rotational = about;
+  x.element.rotational = about || first;
+  x.element.data = std::make_shared<const MeasuredCoordinate>(on);
   const double part = regime == 1 ? numbers(0.6, 0.9) : numbers(-0.3, 0.3);
   x.states = {part * *f.kinetic / f.stiffness};
   x.state_weight = numbers(0.5, 200.0);
@@ -176,13 +201,14 @@ ElementExample bristle_friction_example(std::size_t regime, ExampleNumbers& numb
 
 constinit const ElementKind bristle_friction_element = {
     .about =
-        "friction on the coordinate of a joint that sticks: bristles bend up to the breakaway "
+        "friction on a coordinate of a joint that sticks: bristles bend up to the breakaway "
         "force without creeping",
     .keys = bristle_friction_keys,
+    .joint_word = "friction",
     .axis = ElementAxis::coordinate,
     .blank = [] { return ElementKeys(BristleFriction()); },
     .validate = bristle_friction_validate,
-    .build = build_coordinate,
+    .build = bristle_friction_build,
     .states = [](Element& element) { element.states = 1; },
     .start = bristle_friction_start,
     .dual = bristle_friction_law<Dual>,
