@@ -33,6 +33,10 @@ std::string signal_text(const ElementKey& key, const char* form) {
   return key.axis == ElementAxis::none ? signal : signal + " " + units(key, form);
 }
 
+std::string number_rule_text(const ElementKey& key) {
+  return key.rule.what + (*key.rule.unit ? std::string(" [") + key.rule.unit + "]" : "");
+}
+
 std::string value_text(const ElementKey& key) {
   using K = KeyKind;
   std::string words;
@@ -49,7 +53,7 @@ std::string value_text(const ElementKey& key) {
     case K::vector:
       return "direction";
     case K::number:
-      return key.rule.what + (*key.rule.unit ? std::string(" [") + key.rule.unit + "]" : "");
+      return number_rule_text(key);
     case K::word:
       for (const char* word : key.words)
         words += std::string(words.empty() ? "`" : ", `") + word + "`";
@@ -81,6 +85,15 @@ std::string value_text(const ElementKey& key) {
       return "[function of time](#functions-of-time) " + units(key, "[x]");
     case K::terms:
       return "list of `{joint, coordinate, factor}`";
+    case K::coordinate:
+      return std::string("joint") +
+             (key.axis == ElementAxis::about   ? " that turns"
+              : key.axis == ElementAxis::along ? " that slides"
+                                               : "") +
+             ", or `{joint, coordinate}`";
+    case K::numbers:
+      for (const char* word : key.words) words += (words.empty() ? "" : ", ") + std::string(word);
+      return "`[" + words + "]`, each " + number_rule_text(key);
     case K::function:
       return "function of a program, or `{formula}`";
     case K::formula:
@@ -136,7 +149,9 @@ std::string results_text(ElementType type) {
 
 /// The lists with types, and their word in the tables.
 constexpr std::pair<ElementList, const char*> typed_lists[] = {
-    {ElementList::forces, "type"}, {ElementList::controllers, "controller"}};
+    {ElementList::forces, "type"},
+    {ElementList::controllers, "controller"},
+    {ElementList::couplings, "coupling"}};
 
 TEST(ElementTable, OfTheDocumentationIsThatOfTheList) {
   for (const auto& [list, word] : typed_lists) {
@@ -144,9 +159,12 @@ TEST(ElementTable, OfTheDocumentationIsThatOfTheList) {
         std::string("| ") + word + " | what it does | results |\n|---|---|---|\n";
     std::string table = head;
     for (const ElementType type : types_of(list))
-      table +=
-          std::string("| `") + element_type_name(type) + "` | " + element_kind(type).about + " | " +
-          (list == ElementList::controllers ? "`controller` [-]" : results_text(type)) + " |\n";
+      table += std::string("| `") + element_type_name(type) + "` | " + element_kind(type).about +
+               " | " +
+               (list == ElementList::controllers ? "`controller` [-]"
+                : list == ElementList::couplings ? "`coupling_force` [N] or [N m]"
+                                                 : results_text(type)) +
+               " |\n";
     EXPECT_EQ(test::table_in_document(head), table);
   }
 }

@@ -89,6 +89,8 @@ ElementDescription random_force(ElementType type, const RandomForceEnds& ends,
       case K::speed_table:
       case K::motion:  // what couplings hold is added by `with_coupling`
       case K::terms:
+      case K::coordinate:
+      case K::numbers:
       case K::signals:  // those of controllers
       case K::matrix:
       case K::names:

@@ -38,7 +38,8 @@ Mechanism with_joints(Mechanism mechanism, JointType type);
 /// types that are not drawn. nullopt: there are no two such bodies.
 std::optional<Mechanism> with_force(Mechanism mechanism, ElementType type, unsigned seed);
 
-/// With a coupling of two or three coordinates of joints. nullopt: there are no two.
+/// With a coupling, a sum or one by name, of two or three coordinates of joints. nullopt: there are
+/// no two.
 std::optional<Mechanism> with_coupling(Mechanism mechanism, unsigned seed);
 
 /// With a controller that measures the length of one element and pulls with another one, between

@@ -295,7 +295,7 @@ struct ModelDescription {
   std::vector<BodyDescription> bodies;
   std::vector<JointDescription> joints;
   std::vector<ElementDescription> rods;         ///< elements of type `rod`
-  std::vector<ElementDescription> couplings;    ///< of type `coupling`
+  std::vector<ElementDescription> couplings;    ///< sums, and gears, belts, ... by name
   std::vector<ElementDescription> controllers;  ///< of types without places
   std::vector<ElementDescription> forces;       ///< all others
   std::vector<RoadDescription> roads;

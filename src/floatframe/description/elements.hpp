@@ -13,6 +13,7 @@
 
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/description/attachment.hpp"
+#include "floatframe/description/coupling_elements.hpp"
 #include "floatframe/description/force_function.hpp"
 
 namespace floatframe {
@@ -158,20 +159,6 @@ struct PrescribedMotion {
   int coordinate = 0;  ///< its number from 0
 };
 
-/// A coordinate of a joint, times a factor.
-struct CoordinateTerm {
-  std::string joint;
-  int coordinate = -1;  ///< its number from 0; -1: the only one
-  double factor = 1.0;
-};
-
-/// Holds a sum of coordinates of joints, displacements along or angles about an axis: sum of factor
-/// x coordinate = value. Factors have the units that make the sum one of the first coordinate.
-struct Coupling {
-  std::vector<CoordinateTerm> terms;
-  std::optional<TimeFunction> value;  ///< of time, without jumps; absent: 0
-};
-
 /// A force that a program gives as a function of x, v and the time: along the line between two
 /// points, x their distance, tension positive; or on the only coordinate of a joint, x = q counted
 /// over turns, against which it acts. In both cases F = k x + c v is a spring with a damper.
@@ -310,7 +297,15 @@ struct Delay {
   entry(rate_limiter, RateLimiter)      \
   entry(hysteresis, Hysteresis)         \
   entry(zero_order_hold, ZeroOrderHold) \
-  entry(delay, Delay)
+  entry(delay, Delay)                   \
+  entry(gear, Gear)                     \
+  entry(bevel_gear, BevelGear)          \
+  entry(planetary, PlanetaryGear)       \
+  entry(differential, DifferentialGear) \
+  entry(rack_and_pinion, RackAndPinion) \
+  entry(screw, ScrewDrive)              \
+  entry(belt, BeltDrive)                \
+  entry(mimic, Mimic)
 // clang-format on
 
 #define FLOATFRAME_ENTRY(name, Keys) name,

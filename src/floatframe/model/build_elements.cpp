@@ -4,6 +4,7 @@
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/loop_mobility.hpp"
 #include "floatframe/model/model_builder.hpp"
 #include "floatframe/model/signal_order.hpp"
 
@@ -44,6 +45,15 @@ const Joint* ElementBuild::connect_coordinate(const std::string& name, int compo
 
 Vec3 ElementBuild::design_point(std::size_t port) const {
   return builder_.design_point(element.markers[port]);
+}
+
+Vec3 ElementBuild::design_axis(std::size_t port) const {
+  return design_pose(builder_.model, element.markers[port]).R.col(2);
+}
+
+const Joint* ElementBuild::joint(const std::string& name) const {
+  const auto k = builder_.joint_names.find(name);
+  return k ? &builder_.model.joints[*k] : nullptr;
 }
 
 double ElementBuild::step() const { return builder_.d.simulation.step; }

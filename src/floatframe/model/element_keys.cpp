@@ -90,6 +90,10 @@ MatX ElementView::matrix(const std::string& name) const {
   return value_or(key_value(*force_, key(name)), MatX());
 }
 
+CoordinateTerm ElementView::coordinate(const std::string& name) const {
+  return value_or(key_value(*force_, key(name)), CoordinateTerm());
+}
+
 std::vector<CoordinateTerm> ElementView::coordinates() const {
   std::vector<CoordinateTerm> all;
   for (const ElementKey& key : element_keys(force_->type())) {
@@ -97,6 +101,8 @@ std::vector<CoordinateTerm> ElementView::coordinates() const {
     if (key.kind == KeyKind::joint && value) all.push_back({std::get<std::string>(*value)});
     if (const auto* terms = value ? std::get_if<std::vector<CoordinateTerm>>(&*value) : nullptr)
       all.insert(all.end(), terms->begin(), terms->end());
+    if (const auto* term = value ? std::get_if<CoordinateTerm>(&*value) : nullptr)
+      all.push_back(*term);
   }
   return all;
 }

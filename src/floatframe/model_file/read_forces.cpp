@@ -1,10 +1,9 @@
-// Elements and roads.
+// Elements.
 #include <algorithm>
-#include <limits>
 
-#include "floatframe/description/road_spectrum.hpp"
 #include "floatframe/description/rules.hpp"
 #include "floatframe/description/sentences.hpp"
+#include "floatframe/model/coupled_coordinates.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/joint_kind.hpp"
 #include "floatframe/model_file/linear_file.hpp"
@@ -138,6 +137,43 @@ class ElementReader {
     return KeyValue(std::move(all));
   }
 
+  /// The keys `joint` and `coordinate`.
+  void take_coordinate(YamlSection& s, CoordinateTerm& term) const {
+    if (const auto joint = s.require("joint"))
+      term.joint = self_.reference(EntityKind::joint, *joint).value_or("");
+    const auto word = s.get("coordinate");
+    const auto type = joint_type(term.joint);
+    if (!type || !word) return;
+    std::vector<const char*> names;
+    for (int k = 0; k < joint_velocities(*type); ++k)
+      names.push_back(joint_coordinate_name(*type, k));
+    if (const auto k = word->word(names)) term.coordinate = static_cast<int>(*k);
+  }
+
+  /// A joint, or {joint, coordinate}; its factor is the sign of the mirrored one.
+  std::optional<KeyValue> coordinate(const YamlValue& value, ElementAxis what) const {
+    CoordinateTerm term;
+    if (value.is_scalar()) {
+      term.joint = self_.reference(EntityKind::joint, value).value_or("");
+    } else {
+      auto s = value.section("a joint, or {joint, coordinate}");
+      if (!s) return std::nullopt;
+      take_coordinate(*s, term);
+      s->finish();
+    }
+    if (const auto type = joint_type(term.joint))
+      if (const int k = coupled_component(*type, term.coordinate, what); k >= 0)
+        term.factor = mirrored_sign(*type, k, self_.world);
+    return term.joint.empty() ? std::nullopt : std::optional(KeyValue(std::move(term)));
+  }
+
+  static std::optional<KeyValue> numbers(const YamlValue& value, const ElementKey& key) {
+    const std::string what = "a list of " + std::to_string(key.words.size()) + " numbers";
+    const auto row = value.numbers(key.words.size(), key.words.size(), key.rule, what.c_str());
+    return row ? std::optional(KeyValue(MatX(MatX::Map(row->data(), 1, std::ssize(*row)))))
+               : std::nullopt;
+  }
+
   /// Factors of a mirrored file are those of the mirrored joints.
   std::optional<KeyValue> terms(const YamlValue& value) const {
     std::vector<CoordinateTerm> all;
@@ -145,18 +181,11 @@ class ElementReader {
       auto s = item.section("a term {joint, coordinate, factor}");
       if (!s) continue;
       CoordinateTerm term;
-      if (const auto joint = s->require("joint"))
-        term.joint = self_.reference(EntityKind::joint, *joint).value_or("");
-      const auto word = s->get("coordinate");
+      take_coordinate(*s, term);
       term.factor = s->number("factor", any_number(""), 1.0);
       s->finish();
-      if (const auto type = joint_type(term.joint)) {
-        std::vector<const char*> names;
-        for (int k = 0; k < joint_velocities(*type); ++k)
-          names.push_back(joint_coordinate_name(*type, k));
-        if (const auto k = word ? word->word(names) : std::nullopt) term.coordinate = *k;
+      if (const auto type = joint_type(term.joint))
         term.factor *= mirrored_sign(*type, std::max(0, term.coordinate), self_.world);
-      }
       all.push_back(std::move(term));
     }
     return value.is_list() ? std::optional(KeyValue(std::move(all))) : std::nullopt;
@@ -227,6 +256,10 @@ class ElementReader {
         return read_motion(self_, *value, u.displacement, Interpolation::cubic);
       case K::terms:
         return terms(*value);
+      case K::coordinate:
+        return coordinate(*value, key.axis);
+      case K::numbers:
+        return numbers(*value, key);
       case K::load:
         return read_signal(self_, *value, u.force, Interpolation::linear);
       case K::target:
@@ -244,30 +277,6 @@ class ElementReader {
   ElementCheck check_;
   std::vector<std::string> file_inputs_;
 };
-
-/// Points [x, z] of a road; two with the same x are a step.
-PiecewisePolynomial read_profile(const YamlValue& value) {
-  const TableRows table = read_table_rows(value, any_number("m"), "a point [x, z] [m]");
-  if (table.good && table.rows.empty())
-    value.error(ErrorCode::missing,
-                value.is_list() ? "found an empty list, expected points [x, z]"
-                                : "found no rows in '" + table.file + "', expected points x, z");
-  std::vector<TablePoint> points;
-  for (const TableRow& row : table.rows) {
-    const double x = row.point.x;
-    const std::size_t n = points.size();
-    if (n > 0 && x < points.back().x)
-      table.error(ErrorCode::wrong_value, row,
-                  "found x = " + number_text(x) + " after " + number_text(points.back().x) +
-                      ", expected x that does not decrease [m]");
-    else if (n > 1 && x == points[n - 1].x && x == points[n - 2].x)
-      table.error(ErrorCode::duplicate, row,
-                  "found x = " + number_text(x) + " a third time, expected two points at a jump");
-    else
-      points.push_back(row.point);
-  }
-  return points.empty() ? PiecewisePolynomial() : profile_function(points);
-}
 
 ElementDescription read_element(const ModelInstance& self, const std::string& name, YamlSection& s,
                                 ElementType type, ReadModel& model) {
@@ -298,23 +307,20 @@ void read_rods(const ModelInstance& self, ReadModel& model) {
         read_element(self, name, s, only_type(ElementList::rods), model));
 }
 
-void read_couplings(const ModelInstance& self, ReadModel& model) {
-  for (auto& [name, s] : active_entities(self, EntityKind::coupling))
-    model.description.couplings.push_back(
-        read_element(self, name, s, only_type(ElementList::couplings), model));
-}
-
 namespace {
 
-/// Of a list whose entities name their types.
+/// Of a list whose entities name their types; in `couplings` the first one needs no name.
 void read_typed(const ModelInstance& self, ReadModel& model, ElementList list, EntityKind kind,
                 std::vector<ElementDescription>& out) {
   const std::vector<ElementType> types = types_of(list);
   std::vector<const char*> words;
   for (const ElementType type : types) words.push_back(element_type_name(type));
   for (auto& [name, s] : active_entities(self, kind)) {
-    const auto value = s.require("type");
-    const auto type = value ? value->word(words) : std::nullopt;
+    const bool optional = list == ElementList::couplings;
+    const auto value = optional ? s.get("type") : s.require("type");
+    const auto type = value      ? value->word(words)
+                      : optional ? std::optional<std::size_t>(0)
+                                 : std::nullopt;
     if (!type) continue;
     out.push_back(read_element(self, name, s, types[*type], model));
   }
@@ -330,62 +336,14 @@ void read_forces(const ModelInstance& self, ReadModel& model) {
     model.element_types.emplace(forces[k].name, forces[k].type());
 }
 
+void read_couplings(const ModelInstance& self, ReadModel& model) {
+  read_typed(self, model, ElementList::couplings, EntityKind::coupling,
+             model.description.couplings);
+}
+
 void read_controllers(const ModelInstance& self, ReadModel& model) {
   read_typed(self, model, ElementList::controllers, EntityKind::controller,
              model.description.controllers);
-}
-
-namespace {
-
-/// {class or roughness, start, length, seed}
-std::optional<RoadSpectrum> read_spectrum(const YamlValue& value) {
-  auto s = value.section("a map with class (or roughness), length and seed");
-  if (!s) return std::nullopt;
-  RoadSpectrum spectrum;
-  const std::size_t before = value.context().errors->size();
-  const auto word = s->get("class");
-  const auto number = s->get("roughness");
-  if (word && number) {
-    number->error(ErrorCode::exclusive, "excludes 'class'; remove one of them");
-  } else if (number) {
-    spectrum.roughness = number->number(non_negative_number("m3")).value_or(0.0);
-  } else if (const auto found = s->require("class")) {
-    const auto place = found->word(road_classes::names);
-    if (place) spectrum.roughness = road_classes::roughness(static_cast<int>(*place));
-  }
-  spectrum.start = s->number("start", any_number("m"), 0.0);
-  spectrum.length = s->required_number("length", rules::random_road_length, 100.0);
-  if (const auto seed = s->get("seed"))
-    spectrum.seed = seed->integer(0, std::numeric_limits<int>::max(), "a whole number").value_or(1);
-  s->finish();
-  if (value.context().errors->size() != before) return std::nullopt;
-  return spectrum;
-}
-
-}  // namespace
-
-void read_roads(const ModelInstance& self, ReadModel& model) {
-  for (auto& [name, s] : active_entities(self, EntityKind::road)) {
-    RoadDescription r;
-    r.name = self.prefix + name;
-    r.origin = s.origin();
-    if (const auto v = s.get("profile")) r.pieces = read_profile(*v);
-    if (const auto v = s.get("spectrum"))
-      if (const auto spectrum = read_spectrum(*v)) r.pieces = r.pieces + random_road(*spectrum);
-    if (const auto v = s.get("bumps"))
-      for (const YamlValue& item : v->list("a list of bumps {start, length, height}")) {
-        auto b = item.section("a bump {start, length, height}");
-        if (!b) continue;
-        CosineBump bump;
-        bump.start = b->required_number("start", any_number("m"), 0.0);
-        bump.length = b->required_number("length", rules::bump_length, 1.0);
-        bump.height = b->required_number("height", any_number("m"), 0.0);
-        b->finish();
-        r.bumps.push_back(bump);
-      }
-    s.finish();
-    model.description.roads.push_back(std::move(r));
-  }
 }
 
 }  // namespace floatframe
