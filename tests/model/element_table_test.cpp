@@ -151,7 +151,15 @@ std::string results_text(ElementType type) {
 constexpr std::pair<ElementList, const char*> typed_lists[] = {
     {ElementList::forces, "type"},
     {ElementList::controllers, "controller"},
-    {ElementList::couplings, "coupling"}};
+    {ElementList::couplings, "coupling"},
+    {ElementList::constraints, "constraint"}};
+
+std::string results_of(ElementList list, ElementType type) {
+  if (list == ElementList::controllers) return "`controller` [-]";
+  if (list == ElementList::constraints) return "`joint_force` [N], `joint_torque` [N m]";
+  if (list == ElementList::couplings) return "`coupling_force` [N] or [N m]";
+  return results_text(type);
+}
 
 TEST(ElementTable, OfTheDocumentationIsThatOfTheList) {
   for (const auto& [list, word] : typed_lists) {
@@ -160,11 +168,7 @@ TEST(ElementTable, OfTheDocumentationIsThatOfTheList) {
     std::string table = head;
     for (const ElementType type : types_of(list))
       table += std::string("| `") + element_type_name(type) + "` | " + element_kind(type).about +
-               " | " +
-               (list == ElementList::controllers ? "`controller` [-]"
-                : list == ElementList::couplings ? "`coupling_force` [N] or [N m]"
-                                                 : results_text(type)) +
-               " |\n";
+               " | " + results_of(list, type) + " |\n";
     EXPECT_EQ(test::table_in_document(head), table);
   }
 }

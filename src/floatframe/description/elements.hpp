@@ -152,6 +152,29 @@ struct Rod {
   std::optional<TimeFunction> motion;  ///< instead: the distance [m], positive, without jumps
 };
 
+/// Holds a point, a direction or both of the body of `b` along or about an axis that turns with the
+/// body of `a`.
+struct AxisConstraint {
+  AttachmentDescription a, b;
+  Vec3 axis = Vec3::UnitZ();
+};
+/// The point of b stays on the line through the point of a along the axis.
+struct InLine : AxisConstraint {};
+/// The point of b stays in the plane through the point of a that is normal to the axis.
+struct InPlane : AxisConstraint {};
+/// The axis, which both bodies carry as drawn, stays parallel in both.
+struct Parallel : AxisConstraint {};
+/// A direction of a, `axis`, and one of b, `axis_2`, keep a right angle.
+struct Perpendicular : AxisConstraint {
+  Vec3 axis_2 = Vec3::UnitX();
+};
+/// Two shafts, of a along `axis` and of b along `axis_2`, turn by the same angle, however they are
+/// inclined. Their points coincide, unless the joint slides.
+struct ConstantVelocity : AxisConstraint {
+  Vec3 axis_2 = Vec3::UnitZ();
+  bool slides = false;
+};
+
 /// Prescribes a coordinate of a joint [m or rad]: the key `motion` of joints.
 struct PrescribedMotion {
   std::string joint;
@@ -305,7 +328,12 @@ struct Delay {
   entry(rack_and_pinion, RackAndPinion) \
   entry(screw, ScrewDrive)              \
   entry(belt, BeltDrive)                \
-  entry(mimic, Mimic)
+  entry(mimic, Mimic)                   \
+  entry(in_line, InLine)                \
+  entry(in_plane, InPlane)              \
+  entry(parallel, Parallel)             \
+  entry(perpendicular, Perpendicular)   \
+  entry(constant_velocity, ConstantVelocity)
 // clang-format on
 
 #define FLOATFRAME_ENTRY(name, Keys) name,
@@ -326,12 +354,12 @@ constexpr const char* element_type_name(ElementType type) noexcept {
 }
 
 /// The lists of a description, each with names of its own. Motions are described with their joints.
-enum class ElementList { forces, controllers, rods, couplings, motions };
-inline constexpr std::size_t element_list_count = 5;
+enum class ElementList { forces, controllers, rods, constraints, couplings, motions };
+inline constexpr std::size_t element_list_count = 6;
 /// The section of model files.
 constexpr const char* element_list_name(ElementList list) noexcept {
-  constexpr const char* names[element_list_count] = {"forces", "controllers", "rods", "couplings",
-                                                     "joints"};
+  constexpr const char* names[element_list_count] = {"forces",      "controllers", "rods",
+                                                     "constraints", "couplings",   "joints"};
   return names[index_of(list)];
 }
 

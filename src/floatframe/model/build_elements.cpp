@@ -80,7 +80,7 @@ bool ModelBuilder::add_element(const ElementDescription& e) {
 }
 
 void ModelBuilder::holding_elements() {
-  for (const auto* list : {&d.rods, &d.couplings})
+  for (const auto* list : {&d.rods, &d.constraints, &d.couplings})
     for (const ElementDescription& e : *list) add_element(e);
   for (const JointDescription& j : d.joints) {
     if (j.motion &&

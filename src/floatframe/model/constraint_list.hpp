@@ -15,7 +15,8 @@
   entry(coordinate_displacement)      \
   entry(coordinate_angle)             \
   entry(drive_axis_angle)             \
-  entry(drive_distance)
+  entry(drive_distance)               \
+  entry(constant_velocity)
 // clang-format on
 
 namespace floatframe {

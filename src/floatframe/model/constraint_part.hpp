@@ -29,7 +29,8 @@ struct ConstraintPart {
   bool continues = false;
   int coordinate = -1;            ///< of its element, which the part adds to a sum
   const double* angle = nullptr;  ///< selects the turn of the coordinate; null: the first
-  double force = 1.0;  ///< of an element: its force per multiplier, tension or along a coordinate
+  double force = 1.0;  ///< of an element: its force per multiplier, tension, along a coordinate, or
+                       ///< a torque
   const TimeFunction* motion = nullptr;
   ConstraintOwner owner;
   int rows() const noexcept;

@@ -167,7 +167,8 @@ struct ElementValidation {
 void elements(const ModelDescription& d, const Names& names, ErrorList& errors) {
   std::set<std::string> taken;
   for (const ElementList list :
-       {ElementList::rods, ElementList::couplings, ElementList::forces, ElementList::controllers}) {
+       {ElementList::rods, ElementList::constraints, ElementList::couplings, ElementList::forces,
+        ElementList::controllers}) {
     const std::string section = element_list_name(list);
     if (list != ElementList::controllers) taken.clear();  // states are named by both lists
     for (const ElementDescription& e : d.elements(list)) {

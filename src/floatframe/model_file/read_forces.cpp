@@ -328,6 +328,11 @@ void read_typed(const ModelInstance& self, ReadModel& model, ElementList list, E
 
 }  // namespace
 
+void read_constraints(const ModelInstance& self, ReadModel& model) {
+  read_typed(self, model, ElementList::constraints, EntityKind::constraint,
+             model.description.constraints);
+}
+
 void read_forces(const ModelInstance& self, ReadModel& model) {
   std::vector<ElementDescription>& forces = model.description.forces;
   const std::size_t before = forces.size();

@@ -42,6 +42,7 @@ struct ReadModel {
 void read_bodies(const ModelInstance& self, ReadModel& model);
 void read_joints(const ModelInstance& self, ReadModel& model);
 void read_rods(const ModelInstance& self, ReadModel& model);
+void read_constraints(const ModelInstance& self, ReadModel& model);
 void read_couplings(const ModelInstance& self, ReadModel& model);
 void read_controllers(const ModelInstance& self, ReadModel& model);
 void read_roads(const ModelInstance& self, ReadModel& model);
