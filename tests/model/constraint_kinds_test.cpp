@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "floatframe/core/enum_index.hpp"
+#include "floatframe/model/cam_profile.hpp"
 #include "floatframe/model/constraint_part.hpp"
 #include "floatframe/model/example_numbers.hpp"
 #include "floatframe/model/joint_motion.hpp"
@@ -28,6 +29,16 @@ const TimeFunction& motion() {
   return f;
 }
 
+const CamProfile& lift() {
+  static const CamProfile p = [] {
+    CamProfile f;
+    f.spline = true;
+    f.pieces = PiecewisePolynomial::polynomial({0.1, 0.6, -0.2, 0.05});
+    return f;
+  }();
+  return p;
+}
+
 std::vector<Case> all_cases() {
   std::vector<Case> all;
   ExampleNumbers numbers(5);
@@ -41,6 +52,7 @@ std::vector<Case> all_cases() {
     p.c = numbers(-0.5, 0.5);
     p.scale = numbers(0.5, 1.5);
     p.motion = &motion();
+    p.lift = &lift();
     all.push_back({std::string("part_") + part_words[index_of(type)], {p}});
   }
   for (const JointType type : joint_types) {

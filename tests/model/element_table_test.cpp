@@ -104,6 +104,11 @@ std::string value_text(const ElementKey& key) {
       return "6 x 6 [N s/m, N s, N m s/m, N m s/rad] or 2 x 2 [N s/m]";
     case K::speed_table:
       return "n x 9 [rad/s, N/m, N s/m]";
+    case K::points:
+      for (const char* word : key.words) words += (words.empty() ? "" : ", ") + std::string(word);
+      return "rows [" + words + "], or a [file](#tables-from-files)";
+    case K::shape:
+      return "[formula](#formulas) of `" + std::string(key.words[0]) + "`";
     case K::table:
       for (const char* word : key.words) words += (words.empty() ? "" : ", ") + std::string(word);
       return "rows [" + words + "]";

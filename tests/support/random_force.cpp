@@ -91,6 +91,8 @@ ElementDescription random_force(ElementType type, const RandomForceEnds& ends,
       case K::terms:
       case K::coordinate:
       case K::numbers:
+      case K::points:
+      case K::shape:
       case K::signals:  // those of controllers
       case K::matrix:
       case K::names:

@@ -15,6 +15,7 @@
 #include "floatframe/description/attachment.hpp"
 #include "floatframe/description/coupling_elements.hpp"
 #include "floatframe/description/force_function.hpp"
+#include "floatframe/description/held_elements.hpp"
 
 namespace floatframe {
 
@@ -150,29 +151,6 @@ struct Rod {
   AttachmentDescription a, b;
   std::optional<double> length;        ///< [m]; as drawn if absent
   std::optional<TimeFunction> motion;  ///< instead: the distance [m], positive, without jumps
-};
-
-/// Holds a point, a direction or both of the body of `b` along or about an axis that turns with the
-/// body of `a`.
-struct AxisConstraint {
-  AttachmentDescription a, b;
-  Vec3 axis = Vec3::UnitZ();
-};
-/// The point of b stays on the line through the point of a along the axis.
-struct InLine : AxisConstraint {};
-/// The point of b stays in the plane through the point of a that is normal to the axis.
-struct InPlane : AxisConstraint {};
-/// The axis, which both bodies carry as drawn, stays parallel in both.
-struct Parallel : AxisConstraint {};
-/// A direction of a, `axis`, and one of b, `axis_2`, keep a right angle.
-struct Perpendicular : AxisConstraint {
-  Vec3 axis_2 = Vec3::UnitX();
-};
-/// Two shafts, of a along `axis` and of b along `axis_2`, turn by the same angle, however they are
-/// inclined. Their points coincide, unless the joint slides.
-struct ConstantVelocity : AxisConstraint {
-  Vec3 axis_2 = Vec3::UnitZ();
-  bool slides = false;
 };
 
 /// Prescribes a coordinate of a joint [m or rad]: the key `motion` of joints.
@@ -333,7 +311,8 @@ struct Delay {
   entry(in_plane, InPlane)              \
   entry(parallel, Parallel)             \
   entry(perpendicular, Perpendicular)   \
-  entry(constant_velocity, ConstantVelocity)
+  entry(constant_velocity, ConstantVelocity) \
+  entry(cam, Cam)
 // clang-format on
 
 #define FLOATFRAME_ENTRY(name, Keys) name,

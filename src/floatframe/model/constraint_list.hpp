@@ -16,7 +16,9 @@
   entry(coordinate_angle)             \
   entry(drive_axis_angle)             \
   entry(drive_distance)               \
-  entry(constant_velocity)
+  entry(constant_velocity)            \
+  entry(cam_angle)                    \
+  entry(cam_displacement)
 // clang-format on
 
 namespace floatframe {

@@ -17,6 +17,8 @@
 
 namespace floatframe {
 
+struct CamProfile;
+
 struct ConstraintPart {
   ConstraintType type = ConstraintType::coincident;
   int a = -1, b = -1;  ///< markers
@@ -32,6 +34,7 @@ struct ConstraintPart {
   double force = 1.0;  ///< of an element: its force per multiplier, tension, along a coordinate, or
                        ///< a torque
   const TimeFunction* motion = nullptr;
+  const CamProfile* lift = nullptr;  ///< of a cam
   ConstraintOwner owner;
   int rows() const noexcept;
   /// It prescribes the coordinate of its joint.

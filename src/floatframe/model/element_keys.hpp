@@ -43,6 +43,8 @@ enum class KeyKind {
   speed_table,       ///< rows of a speed and eight coefficients of a plane (bearing_table.hpp)
   table,             ///< rows of numbers, named by `words`, each valid as in `rule`
   matrix,            ///< of any size; a list of numbers is a row
+  points,            ///< rows of numbers, named by `words`, or a CSV file of them; may be absent
+  shape,             ///< a formula of one variable, the only one of `words`
   numbers,           ///< a row, one of each of `words`, valid as in `rule`
   names,             ///< a list of names
   linear_file        ///< its matrices and names are those of other keys (linear_file.hpp)

@@ -61,6 +61,7 @@ struct ElementValidation {
       case K::table:
       case K::matrix:
       case K::numbers:
+      case K::points:
         matrix(key, std::get<MatX>(*x));
         break;
       case K::load:
@@ -81,18 +82,30 @@ struct ElementValidation {
         entity.reference(key.name, "joint", std::get<CoordinateTerm>(*x).joint, names.joints);
         break;
       case K::function:
-        if (const auto& f = std::get<ForceFunction>(*x); !f)
-          entity.error(ErrorCode::unsupported, key.name,
-                       sentences::function_in_file("'" + f.identity() + "'"));
+        program(key, std::get<ForceFunction>(*x));
         break;
+      case K::shape:
       case K::formula:
-        if (!std::get<SharedFormula>(*x))
-          entity.error(ErrorCode::missing, key.name, sentences::missing_formula());
+        formula(key, std::get<SharedFormula>(*x));
         break;
       default:  // flags, stops, names and files of linear systems
         break;
     }
     return entity.errors.size() == before;
+  }
+
+  void program(const ElementKey& key, const ForceFunction& f) const {
+    if (!f)
+      entity.error(ErrorCode::unsupported, key.name,
+                   sentences::function_in_file("'" + f.identity() + "'"));
+  }
+
+  /// Of a shape: of its variable alone.
+  void formula(const ElementKey& key, const SharedFormula& f) const {
+    if (!f)
+      entity.error(ErrorCode::missing, key.name, sentences::missing_formula());
+    else if (key.kind == KeyKind::shape)
+      entity.complain(ErrorCode::not_found, key.name, sentences::formula_of_one(*f, key.words[0]));
   }
 
   void signal(const std::string& path, const SignalDescription& s) const {
@@ -129,14 +142,17 @@ struct ElementValidation {
     if (key.kind == KeyKind::table && (M.rows() == 0 || M.cols() != std::ssize(key.words)))
       return entity.error(ErrorCode::wrong_count, key.name,
                           sentences::table_rows(M.rows(), M.cols(), key.words));
-    const bool numbers = key.kind == KeyKind::numbers;
+    const bool numbers = key.kind == KeyKind::numbers, points = key.kind == KeyKind::points;
+    if (points && M.size() > 0 && M.cols() != std::ssize(key.words))
+      return entity.error(ErrorCode::wrong_count, key.name,
+                          sentences::table_rows(M.rows(), M.cols(), key.words));
     if ((key.kind == KeyKind::matrix || numbers) && key.required && M.size() == 0)
       return entity.error(ErrorCode::missing, std::string("missing key '") + key.name + "'");
     if (numbers && M.size() > 0 && (M.rows() != 1 || M.cols() != std::ssize(key.words)))
       return entity.error(ErrorCode::wrong_count, key.name,
                           "found " + std::to_string(M.size()) + " numbers, expected " +
                               std::to_string(key.words.size()));
-    if (key.kind == KeyKind::table || key.kind == KeyKind::matrix || numbers) {
+    if (key.kind == KeyKind::table || key.kind == KeyKind::matrix || numbers || points) {
       for (Eigen::Index i = 0; i < M.size(); ++i) entity.number(key.name, M(i), key.rule);
     } else if (M.size() > 0) {
       entity.complain(ErrorCode::wrong_value, key.name,

@@ -124,6 +124,10 @@ SharedFormula read_formula(const ModelInstance& self, const YamlValue& value) {
   return compiled(self, value, false);
 }
 
+SharedFormula read_shape(const ModelInstance& self, const YamlValue& value) {
+  return compiled(self, value, true);
+}
+
 std::optional<ForceFunction> read_force_function(const ModelInstance& self,
                                                  const YamlValue& value) {
   if (value.is_scalar()) return ForceFunction::named(value.node().text);

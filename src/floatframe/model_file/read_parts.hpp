@@ -151,6 +151,8 @@ struct LawUnits {
 PiecewisePolynomial read_law(const YamlValue& value, double free, const LawUnits& units);
 /// A formula with the parameters and names of this file; nullptr after an error.
 SharedFormula read_formula(const ModelInstance& self, const YamlValue& value);
+/// A formula of one variable: names are not those of the model.
+SharedFormula read_shape(const ModelInstance& self, const YamlValue& value);
 /// {formula: ...} of x, v and t, or the name of a function that a program is to give.
 std::optional<ForceFunction> read_force_function(const ModelInstance& self, const YamlValue& value);
 /// The section `tables`.
