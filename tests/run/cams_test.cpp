@@ -14,7 +14,7 @@
 namespace floatframe::test {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+constexpr double half_turn = std::numbers::pi;
 constexpr double cam_mass = 0.2, cam_stiffness = 3000.0, cam_preload = 40.0, cam_lift = 0.01;
 
 /// A follower of 0.2 kg with a spring on a cam that turns at a constant speed [rad/s].
@@ -44,12 +44,13 @@ std::string law_text(CamLaw law) {
   return fmt::format(
       "law: {}, segments: [[{:.17g}, 0.01], [{:.17g}, 0], [{:.17g}, -0.01], "
       "[{:.17g}, 0]]",
-      cam_laws[static_cast<std::size_t>(law)], 0.75 * pi, pi, 1.75 * pi, 2.0 * pi);
+      cam_laws[static_cast<std::size_t>(law)], 0.75 * half_turn, half_turn, 1.75 * half_turn,
+      2.0 * half_turn);
 }
 
-/// The closed form: rise over 0.75 pi, dwell to pi, return to 1.75 pi, dwell to 2 pi.
+/// The closed form: rise over 0.75 pi, dwell to pi, return to 1.75 pi, dwell to 2 half_turn.
 PiecewisePolynomial::Value lift_at(CamLaw law, double x) {
-  const double width = 0.75 * pi, at = std::fmod(x, 2.0 * pi);
+  const double width = 0.75 * half_turn, at = std::fmod(x, 2.0 * half_turn);
   const auto scaled = [&](double u, double sign) {
     const PiecewisePolynomial::Value r = cam_rise(law, u);
     return PiecewisePolynomial::Value{cam_lift * (sign > 0.0 ? r.f : 1.0 - r.f),
@@ -57,14 +58,14 @@ PiecewisePolynomial::Value lift_at(CamLaw law, double x) {
                                       sign * cam_lift * r.ddf / (width * width)};
   };
   if (at < width) return scaled(at / width, 1.0);
-  if (at < pi) return {cam_lift, 0.0, 0.0};
-  if (at < pi + width) return scaled((at - pi) / width, -1.0);
+  if (at < half_turn) return {cam_lift, 0.0, 0.0};
+  if (at < half_turn + width) return scaled((at - half_turn) / width, -1.0);
   return {0.0, 0.0, 0.0};
 }
 
 bool near_an_end(double x) {
-  for (const double end : {0.0, 0.75 * pi, pi, 1.75 * pi, 2.0 * pi})
-    if (std::abs(std::fmod(x, 2.0 * pi) - end) < 1e-6) return true;
+  for (const double end : {0.0, 0.75 * half_turn, half_turn, 1.75 * half_turn, 2.0 * half_turn})
+    if (std::abs(std::fmod(x, 2.0 * half_turn) - end) < 1e-6) return true;
   return false;
 }
 
@@ -111,7 +112,7 @@ TEST_P(Cams, AccelerateTheFollowerAsTheClosedForm) {
 TEST_P(Cams, OfATableAccelerateTheFollowerToAThousandth) {
   std::string points;
   for (int k = 0; k <= 720; ++k) {
-    const double x = 2.0 * pi * k / 720;
+    const double x = 2.0 * half_turn * k / 720;
     points += fmt::format("{}[{:.12g}, {:.12g}]", k > 0 ? ", " : "", x,
                           k == 720 ? 0.0 : lift_at(GetParam().law, x).f);
   }
@@ -144,14 +145,15 @@ TEST(LiftOff, IsWhereTheForceChangesItsSign) {
   const double speed = std::sqrt((9.81 + (2.0 * cam_stiffness * e + cam_preload) / cam_mass) / e);
   std::string points;
   for (int k = 0; k <= 720; ++k)
-    points += fmt::format("{}[{:.12g}, {:.12g}]", k > 0 ? ", " : "", 2.0 * pi * k / 720,
-                          k == 720 ? 0.0 : e * (1.0 - std::cos(2.0 * pi * k / 720)));
+    points += fmt::format("{}[{:.12g}, {:.12g}]", k > 0 ? ", " : "", 2.0 * half_turn * k / 720,
+                          k == 720 ? 0.0 : e * (1.0 - std::cos(2.0 * half_turn * k / 720)));
   for (const std::string& lift :
        {std::string("formula: 0.005 * (1 - cos(x))"), "points: [" + points + "]"})
     for (const Coordinates c : both_coordinates)
       for (const double faster : {-1e-3, 1e-3}) {
         const double w = (1.0 + faster) * speed;
-        ModelDescription d = description_of(valve(lift, w, 2.0 * pi / w, 2.0 * pi / w / 720));
+        ModelDescription d =
+            description_of(valve(lift, w, 2.0 * half_turn / w, 2.0 * half_turn / w / 720));
         d.simulation.coordinates = c;
         const RunResult r = completed_run(d);
         double least = 1e9;

@@ -1,5 +1,5 @@
 #pragma once
-// The structs of elements that hold points, directions and cams: see elements.hpp.
+// The structs of elements that hold points, directions and cams.
 #include <optional>
 
 #include "floatframe/description/attachment.hpp"
@@ -31,7 +31,7 @@ struct ConstantVelocity : AxisConstraint {
   bool slides = false;
 };
 
-/// How the rise of a cam goes from its beginning to its end (model/cam_profile.hpp).
+/// How the rise of a cam goes from its beginning to its end (docs/model-file.md).
 enum class CamLaw { harmonic, cycloidal, polynomial_345, polynomial_4567 };
 inline constexpr const char* cam_laws[] = {"harmonic", "cycloidal", "polynomial_345",
                                            "polynomial_4567"};
