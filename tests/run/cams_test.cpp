@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "floatframe/core/enum_index.hpp"
 #include "floatframe/model/cam_profile.hpp"
 #include "support/completed_run.hpp"
 #include "support/model_text.hpp"
@@ -44,11 +45,10 @@ std::string law_text(CamLaw law) {
   return fmt::format(
       "law: {}, segments: [[{:.17g}, 0.01], [{:.17g}, 0], [{:.17g}, -0.01], "
       "[{:.17g}, 0]]",
-      cam_laws[static_cast<std::size_t>(law)], 0.75 * half_turn, half_turn, 1.75 * half_turn,
-      2.0 * half_turn);
+      cam_laws[index_of(law)], 0.75 * half_turn, half_turn, 1.75 * half_turn, 2.0 * half_turn);
 }
 
-/// The closed form: rise over 0.75 pi, dwell to pi, return to 1.75 pi, dwell to 2 half_turn.
+/// The closed form: rise over 0.75 pi, dwell to pi, return to 1.75 pi, dwell to 2 pi.
 PiecewisePolynomial::Value lift_at(CamLaw law, double x) {
   const double width = 0.75 * half_turn, at = std::fmod(x, 2.0 * half_turn);
   const auto scaled = [&](double u, double sign) {
@@ -133,8 +133,7 @@ std::vector<CamCase> cam_cases() {
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryLaw, Cams, ::testing::ValuesIn(cam_cases()), [](const auto& c) {
-  return std::string(cam_laws[static_cast<std::size_t>(c.param.law)]) + "_" +
-         name_of(c.param.coordinates);
+  return std::string(cam_laws[index_of(c.param.law)]) + "_" + name_of(c.param.coordinates);
 });
 
 // An eccentric, s = e (1 - cos x), by its formula and by 720 points. The force
