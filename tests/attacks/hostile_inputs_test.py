@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Hostile formulas, blocks, couplings, tables and functions of time, each in an otherwise valid model (hostile_inputs.txt beside this
+"""Hostile formulas, blocks, constraints, couplings, tables and functions of time, each in an otherwise valid model (hostile_inputs.txt beside this
 file): one sentence with its place, exit code 2; or, where they fail during the run, one sentence with the time, exit code 1,
 and the rows before are kept. `--print` prints the sentences."""
 import concurrent.futures
@@ -42,6 +42,7 @@ forces:
   spring: {type: spring_damper, from: {body: ground, at: [0, 0, 2]}, to: {body: arm, at: [0.3, 0, 0]}, spring: 10}
   push: {type: force, body: box, direction: [1, 0, 0], magnitude: <time: 1>}
   both: {type: joint_spring, joint: slide, damper: 1}
+constraints: {hold: <constraint: {when: false}>}
 couplings: {tie: <coupling: {when: false}>}
 controllers: {b: <controller: {type: limiter, input: 3, lower: 0}>}
 outputs: {tip_z: {position: {body: arm, at: [0.6, 0, 0]}, axis: z}, calc: {formula: "tip.z"}, bad: <output: {formula: "t"}>}
