@@ -7,6 +7,7 @@
 #include "floatframe/model/constraint_part.hpp"
 #include "floatframe/model/example_numbers.hpp"
 #include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/space_curve.hpp"
 #include "support/exact_tangents.hpp"
 #include "support/marker_motion.hpp"
 
@@ -39,6 +40,19 @@ const CamProfile& lift() {
   return p;
 }
 
+/// A parabola in a plane, whose convex side the markers are on.
+const SpaceCurve& curve() {
+  static const SpaceCurve c = [] {
+    PointOnCurve keys;
+    keys.x = formula("u");
+    keys.y = formula("3 + 0.05 * u^2");
+    keys.z = formula("0.2 * u");
+    keys.range = MatX{{-20.0, 20.0}};
+    return SpaceCurve(keys);
+  }();
+  return c;
+}
+
 std::vector<Case> all_cases() {
   std::vector<Case> all;
   ExampleNumbers numbers(5);
@@ -53,6 +67,7 @@ std::vector<Case> all_cases() {
     p.scale = numbers(0.5, 1.5);
     p.motion = &motion();
     p.lift = &lift();
+    p.curve = &curve();
     all.push_back({std::string("part_") + part_words[index_of(type)], {p}});
   }
   for (const JointType type : joint_types) {

@@ -312,7 +312,8 @@ struct Delay {
   entry(parallel, Parallel)             \
   entry(perpendicular, Perpendicular)   \
   entry(constant_velocity, ConstantVelocity) \
-  entry(cam, Cam)
+  entry(cam, Cam)                       \
+  entry(point_on_curve, PointOnCurve)
 // clang-format on
 
 #define FLOATFRAME_ENTRY(name, Keys) name,

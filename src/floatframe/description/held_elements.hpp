@@ -31,6 +31,16 @@ struct ConstantVelocity : AxisConstraint {
   bool slides = false;
 };
 
+/// The point of b stays on a curve that is fixed in the body of a: through points or by formulas of
+/// `u`, from the point of a along the axes of the world as drawn.
+struct PointOnCurve {
+  AttachmentDescription a, b;
+  MatX points = {};                                     ///< n x 3 [m], a cubic spline; or ...
+  std::optional<SharedFormula> x = {}, y = {}, z = {};  ///< ... these [m]; absent: 0
+  MatX range = {};                                      ///< 1 x 2: of u in the formulas
+  bool closed = false;
+};
+
 /// How the rise of a cam goes from its beginning to its end (docs/model-file.md).
 enum class CamLaw { harmonic, cycloidal, polynomial_345, polynomial_4567 };
 inline constexpr const char* cam_laws[] = {"harmonic", "cycloidal", "polynomial_345",

@@ -18,7 +18,8 @@
   entry(drive_distance)               \
   entry(constant_velocity)            \
   entry(cam_angle)                    \
-  entry(cam_displacement)
+  entry(cam_displacement)             \
+  entry(on_curve)
 // clang-format on
 
 namespace floatframe {

@@ -18,6 +18,7 @@
 namespace floatframe {
 
 struct CamProfile;
+class SpaceCurve;
 
 struct ConstraintPart {
   ConstraintType type = ConstraintType::coincident;
@@ -34,7 +35,8 @@ struct ConstraintPart {
   double force = 1.0;  ///< of an element: its force per multiplier, tension, along a coordinate, or
                        ///< a torque
   const TimeFunction* motion = nullptr;
-  const CamProfile* lift = nullptr;  ///< of a cam
+  const CamProfile* lift = nullptr;   ///< of a cam
+  const SpaceCurve* curve = nullptr;  ///< that b stays on
   ConstraintOwner owner;
   int rows() const noexcept;
   /// It prescribes the coordinate of its joint.
