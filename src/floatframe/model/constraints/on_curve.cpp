@@ -7,8 +7,8 @@
 //              H_i = n_i' u_p^T + u_p (n_i' - t t.n_i')^T, symmetric
 //   curvature  of that axis, and P^T H_i P, dp = P d(motion)
 // H_i is exact for plane curves, and for others where the point is on the curve: it leaves out
-// terms of e. So the parameter u is eliminated, and is no state: where a curve comes close to itself
-// the nearer branch holds.
+// terms of e. So the parameter u is eliminated, and is no state: where a curve comes close to
+// itself the nearer branch holds.
 #include <cassert>
 
 #include "floatframe/math/so3.hpp"
