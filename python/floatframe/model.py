@@ -207,6 +207,10 @@ class Model:
         return self._section("rods")
 
     @property
+    def constraints(self) -> Section:
+        return self._section("constraints")
+
+    @property
     def couplings(self) -> Section:
         return self._section("couplings")
 

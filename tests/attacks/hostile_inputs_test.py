@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Hostile formulas, blocks, tables and functions of time, each in an otherwise valid model (hostile_inputs.txt beside this
+"""Hostile formulas, blocks, constraints, couplings, tables and functions of time, each in an otherwise valid model (hostile_inputs.txt beside this
 file): one sentence with its place, exit code 2; or, where they fail during the run, one sentence with the time, exit code 1,
 and the rows before are kept. `--print` prints the sentences."""
 import concurrent.futures
@@ -27,7 +27,8 @@ bodies:
   stone: {position: [0, 3, 0], rigid: {mass: 1, inertia: [0.1, 0.1, 0.1]}}
   brick: {position: [0, 4, 0], rigid: {mass: 1, inertia: [0.1, 0.1, 0.1]}}
   lump: {position: [0, 5, 0], rigid: {mass: 1, inertia: [0.1, 0.1, 0.1]}}
-  nut: {position: [0, 6, 0], rigid: {mass: 1, inertia: [0.1, 0.1, 0.1]}}
+  pipe: {position: [0, 6, 0], rigid: {mass: 1, inertia: [0.1, 0.1, 0.1]}}
+  nut: {position: [0, 5, 0], rigid: {mass: 1, inertia: [0.1, 0.1, 0.1]}}
 joints:
   hinge: {type: revolute, child: arm, at: [0, 0, 0], axis: y}
   slide: {type: prismatic, child: box, at: [0, 1, 0], axis: x}
@@ -36,8 +37,9 @@ joints:
   fix: {type: weld, child: brick, at: [0, 4, 0]<onweld: >}
   rail: {type: prismatic, child: lump, at: [0, 5, 0], axis: x, stops: <stops: {upper: 1, stiffness: 1000}>,
     friction: <friction: {breakaway: 1, stiffness: 1.0e+4}>}
-  tube: {type: cylindrical, child: nut, at: [0, 6, 0], axis: x, stops: <many: {angle: {upper: 3, stiffness: 10}}>,
+  tube: {type: cylindrical, child: pipe, at: [0, 6, 0], axis: x, stops: <many: {angle: {upper: 3, stiffness: 10}}>,
     friction: <rub: {displacement: {breakaway: 1, stiffness: 1.0e+4}}>}
+  nut: {type: cylindrical, child: nut, at: [0, 5, 0], axis: x}
 measures: {tip: {position: {body: arm, at: [0.6, 0, 0]}}, q: <measure: {joint_position: hinge}>}
 tables: {gas: {table: [[0, 3], [1, 4]]}, map: {grid: {x: [0, 1], y: [0, 1], values: [[1, 2], [3, 4]]}}, bad: <table: {polynomial: [1]}>}
 forces:
@@ -46,6 +48,8 @@ forces:
   spring: {type: spring_damper, from: {body: ground, at: [0, 0, 2]}, to: {body: arm, at: [0.3, 0, 0]}, spring: 10}
   push: {type: force, body: box, direction: [1, 0, 0], magnitude: <time: 1>}
   both: <force: {type: joint_spring, joint: slide, damper: 1}>
+constraints: {hold: <constraint: {when: false}>}
+couplings: {tie: <coupling: {when: false}>}
 controllers: {b: <controller: {type: limiter, input: 3, lower: 0}>}
 outputs: {tip_z: {position: {body: arm, at: [0.6, 0, 0]}, axis: z}, calc: {formula: "tip.z"}, bad: <output: {formula: "t"}>}
 simulation: {step: 1.0e-3, duration: 0.1}

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "floatframe/core/enum_index.hpp"
+#include "floatframe/model/cam_profile.hpp"
 #include "floatframe/model/constraint_part.hpp"
 #include "floatframe/model/example_numbers.hpp"
 #include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/space_curve.hpp"
 #include "support/exact_tangents.hpp"
 #include "support/marker_motion.hpp"
 
@@ -28,6 +30,29 @@ const TimeFunction& motion() {
   return f;
 }
 
+const CamProfile& lift() {
+  static const CamProfile p = [] {
+    CamProfile f;
+    f.spline = true;
+    f.pieces = PiecewisePolynomial::polynomial({0.1, 0.6, -0.2, 0.05});
+    return f;
+  }();
+  return p;
+}
+
+/// A parabola in a plane, whose convex side the markers are on.
+const SpaceCurve& curve() {
+  static const SpaceCurve c = [] {
+    PointOnCurve keys;
+    keys.x = formula("u");
+    keys.y = formula("3 + 0.05 * u^2");
+    keys.z = formula("0.2 * u");
+    keys.range = MatX{{-20.0, 20.0}};
+    return SpaceCurve(keys);
+  }();
+  return c;
+}
+
 std::vector<Case> all_cases() {
   std::vector<Case> all;
   ExampleNumbers numbers(5);
@@ -41,6 +66,8 @@ std::vector<Case> all_cases() {
     p.c = numbers(-0.5, 0.5);
     p.scale = numbers(0.5, 1.5);
     p.motion = &motion();
+    p.lift = &lift();
+    p.curve = &curve();
     all.push_back({std::string("part_") + part_words[index_of(type)], {p}});
   }
   for (const JointType type : joint_types) {

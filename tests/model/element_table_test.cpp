@@ -33,6 +33,10 @@ std::string signal_text(const ElementKey& key, const char* form) {
   return key.axis == ElementAxis::none ? signal : signal + " " + units(key, form);
 }
 
+std::string number_rule_text(const ElementKey& key) {
+  return key.rule.what + (*key.rule.unit ? std::string(" [") + key.rule.unit + "]" : "");
+}
+
 std::string value_text(const ElementKey& key) {
   using K = KeyKind;
   std::string words;
@@ -43,7 +47,7 @@ std::string value_text(const ElementKey& key) {
       return "body; and `at`, a point (default: its frame origin), or `node`";
     case K::joint:
       return "joint";
-    case K::coordinate:
+    case K::own_coordinate:
       return "name of one of its [coordinates](#joints)";
     case K::road:
       return "[road](#roads)";
@@ -51,7 +55,7 @@ std::string value_text(const ElementKey& key) {
     case K::vector:
       return "direction";
     case K::number:
-      return key.rule.what + (*key.rule.unit ? std::string(" [") + key.rule.unit + "]" : "");
+      return number_rule_text(key);
     case K::word:
       for (const char* word : key.words)
         words += std::string(words.empty() ? "`" : ", `") + word + "`";
@@ -83,6 +87,15 @@ std::string value_text(const ElementKey& key) {
       return "[function of time](#functions-of-time) " + units(key, "[x]");
     case K::terms:
       return "list of `{joint, coordinate, factor}`";
+    case K::coordinate:
+      return std::string("joint") +
+             (key.axis == ElementAxis::about   ? " that turns"
+              : key.axis == ElementAxis::along ? " that slides"
+                                               : "") +
+             ", or `{joint, coordinate}`";
+    case K::numbers:
+      for (const char* word : key.words) words += (words.empty() ? "" : ", ") + std::string(word);
+      return "`[" + words + "]`, each " + number_rule_text(key);
     case K::function:
       return "function of a program, or `{formula}`";
     case K::formula:
@@ -93,6 +106,11 @@ std::string value_text(const ElementKey& key) {
       return "6 x 6 [N s/m, N s, N m s/m, N m s/rad] or 2 x 2 [N s/m]";
     case K::speed_table:
       return "n x 9 [rad/s, N/m, N s/m]";
+    case K::points:
+      for (const char* word : key.words) words += (words.empty() ? "" : ", ") + std::string(word);
+      return "rows [" + words + "], or a [file](#tables-from-files)";
+    case K::shape:
+      return "[formula](#formulas) of `" + std::string(key.words[0]) + "`";
     case K::table:
       for (const char* word : key.words) words += (words.empty() ? "" : ", ") + std::string(word);
       return "rows [" + words + "]";
@@ -138,7 +156,17 @@ std::string results_text(ElementType type) {
 
 /// The lists with types, and their word in the tables.
 constexpr std::pair<ElementList, const char*> typed_lists[] = {
-    {ElementList::forces, "type"}, {ElementList::controllers, "controller"}};
+    {ElementList::forces, "type"},
+    {ElementList::controllers, "controller"},
+    {ElementList::couplings, "coupling"},
+    {ElementList::constraints, "constraint"}};
+
+std::string results_of(ElementList list, ElementType type) {
+  if (list == ElementList::controllers) return "`controller` [-]";
+  if (list == ElementList::constraints) return "`joint_force` [N], `joint_torque` [N m]";
+  if (list == ElementList::couplings) return "`coupling_force` [N] or [N m]";
+  return results_text(type);
+}
 
 TEST(ElementTable, OfTheDocumentationIsThatOfTheList) {
   for (const auto& [list, word] : typed_lists) {
@@ -146,9 +174,8 @@ TEST(ElementTable, OfTheDocumentationIsThatOfTheList) {
         std::string("| ") + word + " | what it does | results |\n|---|---|---|\n";
     std::string table = head;
     for (const ElementType type : types_of(list))
-      table +=
-          std::string("| `") + element_type_name(type) + "` | " + element_kind(type).about + " | " +
-          (list == ElementList::controllers ? "`controller` [-]" : results_text(type)) + " |\n";
+      table += std::string("| `") + element_type_name(type) + "` | " + element_kind(type).about +
+               " | " + results_of(list, type) + " |\n";
     EXPECT_EQ(test::table_in_document(head), table);
   }
 }

@@ -16,7 +16,7 @@ std::string of(OutputOf what) {
                                       "joint",
                                       "flexible body",
                                       "force element",
-                                      "joint or `{rod: name}`",
+                                      "joint, `{rod: name}` or `{constraint: name}`",
                                       "rod",
                                       "joint with a motion",
                                       "[coupling](#couplings)",

@@ -52,10 +52,12 @@ std::string text(const AttachmentDescription& a) {
   return a.body + (a.node ? " node " + *a.node : "") + " " + text(a.point);
 }
 
+std::string text(const CoordinateTerm& t) {
+  return fmt::format("{:.17g} {} {}", t.factor, t.joint, t.coordinate);
+}
 std::string text(const std::vector<CoordinateTerm>& terms) {
   std::string s;
-  for (const CoordinateTerm& t : terms)
-    s += fmt::format("{}{:.17g} {} {}", s.empty() ? "" : " + ", t.factor, t.joint, t.coordinate);
+  for (const CoordinateTerm& t : terms) s += (s.empty() ? "" : " + ") + text(t);
   return s;
 }
 
@@ -120,7 +122,7 @@ std::string summary_of(const ModelDescription& d) {
     ++counts[std::string(joint_type_name(j.type)) + (j.cut ? " cut" : "") +
              (j.motion ? " driven" : "")];
   if (!d.rods.empty()) counts["rod"] = static_cast<int>(d.rods.size());
-  if (!d.couplings.empty()) counts["coupling"] = static_cast<int>(d.couplings.size());
+  for (const ElementDescription& c : d.couplings) ++counts[element_type_name(c.type())];
   for (const ElementDescription& f : d.forces) {
     ++counts[element_type_name(f.type())];
   }

@@ -25,7 +25,7 @@ ElementDescription random_force(ElementType type, const RandomForceEnds& ends,
       case K::joint:
         if (!key.required) return std::nullopt;  // instead of places
         return ends.joint;
-      case K::coordinate:  // the only one
+      case K::own_coordinate:  // the only one
         return std::nullopt;
       case K::road:
         return ends.road;
@@ -91,6 +91,10 @@ ElementDescription random_force(ElementType type, const RandomForceEnds& ends,
       case K::speed_table:
       case K::motion:  // what couplings hold is added by `with_coupling`
       case K::terms:
+      case K::coordinate:
+      case K::numbers:
+      case K::points:
+      case K::shape:
       case K::signals:  // those of controllers
       case K::matrix:
       case K::names:

@@ -318,6 +318,45 @@ std::optional<Mechanism> with_force(Mechanism m, ElementType type, unsigned seed
   return std::nullopt;
 }
 
+namespace {
+
+/// A coupling by name of these coordinates, one of those that fit.
+std::optional<ElementKeys> named_coupling(const ModelDescription& d,
+                                          const std::vector<CoordinateTerm>& all,
+                                          ExampleNumbers& numbers) {
+  std::vector<CoordinateTerm> turning, sliding;
+  std::vector<Vec3> axes;
+  for (const CoordinateTerm& term : all) {
+    const auto j = std::ranges::find(d.joints, term.joint, &JointDescription::name);
+    const bool turns = coordinate_axis(j->type, Vec3::UnitX(), term.coordinate)->turns;
+    (turns ? turning : sliding).push_back(term);
+    if (turns) axes.push_back(j->axis.normalized());
+  }
+  const auto between = [&](std::size_t k) {
+    return std::atan2(axes[0].cross(axes[k]).norm(), std::abs(axes[0].dot(axes[k])));
+  };
+  std::vector<ElementKeys> fit;
+  const double ratio = numbers(0.5, 2.0);
+  if (all.size() >= 2)
+    fit.push_back(Mimic{all[0], all[1], numbers(-2.0, -0.5), numbers(-0.1, 0.1)});
+  if (turning.size() >= 2)
+    fit.push_back(BevelGear{turning[0], turning[1], ratio, {}, numbers(0.0, 1.0) < 0.5});
+  if (turning.size() >= 2 && between(1) < 0.01) {
+    fit.push_back(Gear{.driver = turning[0], .driven = turning[1], .ratio = ratio});
+    fit.push_back(BeltDrive{turning[0], turning[1], MatX{{0.1, 0.1 * ratio}}, false});
+  }
+  if (turning.size() >= 3 && between(1) < 1.0 && between(2) < 1.0)
+    fit.push_back(DifferentialGear{turning[0], turning[1], turning[2]});
+  if (!turning.empty() && !sliding.empty()) {
+    fit.push_back(RackAndPinion{turning[0], sliding[0], ratio, numbers(0.0, 1.0) < 0.5});
+    fit.push_back(ScrewDrive{{}, turning[0], sliding[0], 3.0 * ratio});
+  }
+  if (fit.empty()) return std::nullopt;
+  return fit[static_cast<std::size_t>(numbers(0.0, static_cast<double>(fit.size()) - 1e-9))];
+}
+
+}  // namespace
+
 std::optional<Mechanism> with_coupling(Mechanism m, unsigned seed) {
   ModelDescription& d = m.description;
   ExampleNumbers numbers(seed);
@@ -327,20 +366,26 @@ std::optional<Mechanism> with_coupling(Mechanism m, unsigned seed) {
       return b.name == name && rigid && rigid->mass == 0.0;
     });
   };
-  std::vector<CoordinateTerm> all;
+  std::vector<CoordinateTerm> left, all;
   for (const JointDescription& j : d.joints)
     for (int k = 0; k < joint_velocities(j.type) && !j.motion; ++k)
       if (!without_mass(j.parent.body) && !without_mass(j.child.body) &&
           coordinate_axis(j.type, Vec3::UnitX(), k))
-        all.push_back({j.name, k});
-  Coupling coupling;
-  while (!all.empty() && coupling.terms.size() < 3) {
-    const auto k = static_cast<std::ptrdiff_t>(numbers(0.0, static_cast<double>(all.size())));
-    coupling.terms.push_back(all[static_cast<std::size_t>(k)]);
-    coupling.terms.back().factor = numbers(0.5, 2.0) * (numbers(0.0, 1.0) < 0.5 ? -1.0 : 1.0);
-    all.erase(all.begin() + k);
+        left.push_back({j.name, k});
+  while (!left.empty()) {  // in a random order
+    const auto k = static_cast<std::ptrdiff_t>(numbers(0.0, static_cast<double>(left.size())));
+    all.push_back(left[static_cast<std::size_t>(k)]);
+    left.erase(left.begin() + k);
   }
-  if (coupling.terms.size() < 2) return std::nullopt;
+  if (all.size() < 2) return std::nullopt;
+  if (seed % 3 != 0) {
+    d.couplings = {{"coupling", *named_coupling(d, all, numbers), {}}};
+    return m;
+  }
+  Coupling coupling;
+  coupling.terms.assign(all.begin(), all.begin() + std::min<std::ptrdiff_t>(3, std::ssize(all)));
+  for (CoordinateTerm& term : coupling.terms)
+    term.factor = numbers(0.5, 2.0) * (numbers(0.0, 1.0) < 0.5 ? -1.0 : 1.0);
   d.couplings = {{"coupling", coupling, {}}};
   return m;
 }

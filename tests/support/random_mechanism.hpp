@@ -38,7 +38,7 @@ Mechanism with_joints(Mechanism mechanism, JointType type);
 /// types that are not drawn. nullopt: there are no two such bodies.
 std::optional<Mechanism> with_force(Mechanism mechanism, ElementType type, unsigned seed);
 
-/// With a coupling of two or three coordinates of joints, none of a body without mass: such a body
+/// With a coupling, a sum or one by name, of coordinates of joints of bodies with mass: one without
 /// begins with a speed that no force balances, and a coupling hands the error of that on, of first
 /// order, to bodies with mass. nullopt: there are no two.
 std::optional<Mechanism> with_coupling(Mechanism mechanism, unsigned seed);

@@ -198,9 +198,10 @@ struct OutputDescription {
   OutputType type = OutputType::position;
   AttachmentDescription at;  ///< for point quantities (node/point given) or body quantities
   AttachmentDescription to;  ///< the second of two points
-  std::string entity;        ///< joint, force, rod or coupling name
+  std::string entity;        ///< joint, force, rod, constraint or coupling name
   std::string value;         ///< of a controller with several: its name, or its number from 1
   bool rod = false;          ///< a reaction of a rod
+  bool constraint = false;   ///< a reaction of a constraint
   bool about = false;        ///< a reaction about the point `at`, else about that of joint or rod
   OutputAxes in = OutputAxes::world;  ///< of a reaction; of a place: `to`
   bool whole = false;                 ///< a quantity of all bodies together, not of `at.body`
@@ -295,7 +296,8 @@ struct ModelDescription {
   std::vector<BodyDescription> bodies;
   std::vector<JointDescription> joints;
   std::vector<ElementDescription> rods;         ///< elements of type `rod`
-  std::vector<ElementDescription> couplings;    ///< of type `coupling`
+  std::vector<ElementDescription> constraints;  ///< of types that hold markers
+  std::vector<ElementDescription> couplings;    ///< sums, and gears, belts, ... by name
   std::vector<ElementDescription> controllers;  ///< of types without places
   std::vector<ElementDescription> forces;       ///< all others
   std::vector<RoadDescription> roads;
@@ -308,6 +310,7 @@ struct ModelDescription {
 
   const std::vector<ElementDescription>& elements(ElementList list) const {
     return list == ElementList::rods          ? rods
+           : list == ElementList::constraints ? constraints
            : list == ElementList::couplings   ? couplings
            : list == ElementList::controllers ? controllers
                                               : forces;

@@ -13,7 +13,9 @@
 
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/description/attachment.hpp"
+#include "floatframe/description/coupling_elements.hpp"
 #include "floatframe/description/force_function.hpp"
+#include "floatframe/description/held_elements.hpp"
 
 namespace floatframe {
 
@@ -173,20 +175,6 @@ struct PrescribedMotion {
   int coordinate = 0;  ///< its number from 0
 };
 
-/// A coordinate of a joint, times a factor.
-struct CoordinateTerm {
-  std::string joint;
-  int coordinate = -1;  ///< its number from 0; -1: the only one
-  double factor = 1.0;
-};
-
-/// Holds a sum of coordinates of joints, displacements along or angles about an axis: sum of factor
-/// x coordinate = value. Factors have the units that make the sum one of the first coordinate.
-struct Coupling {
-  std::vector<CoordinateTerm> terms;
-  std::optional<TimeFunction> value;  ///< of time, without jumps; absent: 0
-};
-
 /// A force that a program gives as a function of x, v and the time: along the line between two
 /// points, x their distance, tension positive; or on the only coordinate of a joint, x = q counted
 /// over turns, against which it acts. In both cases F = k x + c v is a spring with a damper.
@@ -326,7 +314,22 @@ struct Delay {
   entry(hysteresis, Hysteresis)         \
   entry(zero_order_hold, ZeroOrderHold) \
   entry(delay, Delay)                   \
-  entry(joint_stop, JointStop)
+  entry(joint_stop, JointStop)          \
+  entry(gear, Gear)                     \
+  entry(bevel_gear, BevelGear)          \
+  entry(planetary, PlanetaryGear)       \
+  entry(differential, DifferentialGear) \
+  entry(rack_and_pinion, RackAndPinion) \
+  entry(screw, ScrewDrive)              \
+  entry(belt, BeltDrive)                \
+  entry(mimic, Mimic)                   \
+  entry(in_line, InLine)                \
+  entry(in_plane, InPlane)              \
+  entry(parallel, Parallel)             \
+  entry(perpendicular, Perpendicular)   \
+  entry(constant_velocity, ConstantVelocity) \
+  entry(cam, Cam)                       \
+  entry(point_on_curve, PointOnCurve)
 // clang-format on
 
 #define FLOATFRAME_ENTRY(name, Keys) name,
@@ -347,12 +350,12 @@ constexpr const char* element_type_name(ElementType type) noexcept {
 }
 
 /// The lists of a description, each with names of its own. Motions are described with their joints.
-enum class ElementList { forces, controllers, rods, couplings, motions };
-inline constexpr std::size_t element_list_count = 5;
+enum class ElementList { forces, controllers, rods, constraints, couplings, motions };
+inline constexpr std::size_t element_list_count = 6;
 /// The section of model files.
 constexpr const char* element_list_name(ElementList list) noexcept {
-  constexpr const char* names[element_list_count] = {"forces", "controllers", "rods", "couplings",
-                                                     "joints"};
+  constexpr const char* names[element_list_count] = {"forces",      "controllers", "rods",
+                                                     "constraints", "couplings",   "joints"};
   return names[index_of(list)];
 }
 

@@ -102,5 +102,12 @@ std::string off_the_mirror(const std::string& name) {
 std::string formula_of_law(const std::string& name) {
   return "found '" + name + "', expected x, v, t, numbers and parameters in the formula of a law";
 }
+Complaint formula_of_one(const Formula& f, const std::string& variable) {
+  for (const FormulaReference& r : f.references)
+    if (!r.function.empty() || r.name != variable)
+      return "found '" + (r.function.empty() ? r.name : r.function + "(" + r.name + ")") +
+             "', expected a formula of " + variable + ", numbers and parameters";
+  return std::nullopt;
+}
 
 }  // namespace floatframe::sentences

@@ -163,8 +163,9 @@ std::string child_is_parent() { return "found the same body as the parent, expec
 
 std::string element_of_another_list(const std::string& type) {
   return "found " + type +
-         ", expected rods, couplings and controllers in the lists of these, motions in joints, and "
-         "all others in that of forces";
+         ", expected rods, constraints, couplings and controllers in the lists of these, motions "
+         "in "
+         "joints, and all others in that of forces";
 }
 std::string both_ends_on(const std::string& body) {
   return "found both ends on '" + body + "', expected two bodies";

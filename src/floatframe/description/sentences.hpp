@@ -80,6 +80,8 @@ std::string off_the_mirror(const std::string& name);
 std::string formula_of_a_formula(const std::string& name);
 /// Of a force law: another reference than x, v and t.
 std::string formula_of_law(const std::string& name);
+/// Of a formula of one variable: another reference.
+Complaint formula_of_one(const Formula& f, const std::string& variable);
 std::string ring_of_signals(const std::vector<std::string>& elements);
 Complaint rod_ends(const Vec3& a, const Vec3& b);
 Complaint spring_ends(const Vec3& a, const Vec3& b);

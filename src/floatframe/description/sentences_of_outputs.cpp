@@ -18,7 +18,7 @@ std::string joint_without_motion() {
 }
 
 std::string rod_has_no_axes() {
-  return "a rod has no axes of its own, expected world or a place {body, at}";
+  return "rods and constraints have no axes of their own, expected world or a place {body, at}";
 }
 
 std::string force_without_point() {

@@ -28,7 +28,7 @@ namespace validation {
 
 /// Names that entities refer to.
 struct Names {
-  NameIndex bodies, joints, forces, roads, inputs, rods, couplings, controllers;
+  NameIndex bodies, joints, forces, roads, inputs, rods, constraints, couplings, controllers;
 };
 
 /// One entity: adds "path.key: sentence" at the position of the key, if known.

@@ -1,6 +1,7 @@
 #include "floatframe/formulation/constraint_set.hpp"
 
 #include <cassert>
+#include <cmath>
 
 namespace floatframe {
 
@@ -73,6 +74,24 @@ WrenchRow ConstraintSet::wrench(std::size_t part, const VecX& w) const noexcept 
     sum.b.T += x * g.b.T;
   }
   return sum;
+}
+
+double ConstraintSet::force_of(std::size_t part, const double* lambda) const noexcept {
+  assert(part < parts_.size() && parts_[part].owner.element >= 0);
+  const ConstraintPart& first = parts_[part];
+  const bool points = constraint_kind(first.type).points;
+  double square = 0.0;
+  int rows = 0;
+  for (std::size_t k = part; k < parts_.size(); ++k) {
+    const ConstraintPart& p = parts_[k];
+    if (p.owner.element != first.owner.element) break;
+    if (p.continues || constraint_kind(p.type).points != points) continue;
+    for (int r = 0; r < p.rows(); ++r, ++rows) {
+      const double force = p.force * lambda[offsets_[k] - offsets_[part] + r];
+      square += force * force;
+    }
+  }
+  return rows == 1 ? first.force * *lambda : std::sqrt(square);
 }
 
 double ConstraintSet::motion_power(const VecX& lambda) const noexcept {

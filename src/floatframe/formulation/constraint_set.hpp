@@ -143,6 +143,10 @@ class ConstraintSet {
   std::vector<int> markers(std::size_t part) const;
   /// The wrench of a part whose rows have the weights w.
   WrenchRow wrench(std::size_t part, const VecX& w) const noexcept;
+  /// The force of the element whose first part this is, with the multipliers from its first row on:
+  /// of one row with its sign, of several the size of the force on the point, or of the torque if
+  /// it holds directions alone.
+  double force_of(std::size_t part, const double* lambda) const noexcept;
   /// Phi_q^T w: calls add(marker, force, torque) twice for each part.
   template <class Add>
   void add_wrenches(const VecX& w, const Add& add) const noexcept {

@@ -38,6 +38,10 @@ class ConstraintAnalysis {
   const std::vector<ConstraintPart>& parts() const { return f_.constraint_set().parts(); }
   /// First row of a part.
   Eigen::Index row_of(std::size_t part) const { return f_.constraint_set().offset(part) - first_; }
+  /// `ConstraintSet::force_of` with multipliers of the rows.
+  double force_of(std::size_t part, const VecX& lambda) const {
+    return f_.constraint_set().force_of(part, lambda.data() + row_of(part));
+  }
   const ConstraintRow& row(std::size_t part, int r) const {
     return f_.constraint_set().row(part, r);
   }

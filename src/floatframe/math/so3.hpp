@@ -107,4 +107,13 @@ inline void orthonormal_complement(const Vec3& n, Vec3& t1, Vec3& t2) noexcept {
   t2 = n.cross(t1);
 }
 
+/// Axes with z along the unit vector n.
+inline Mat3 frame_with_z(const Vec3& n) noexcept {
+  Vec3 x, y;
+  orthonormal_complement(n, x, y);
+  Mat3 R;
+  R << x, y, n;
+  return R;
+}
+
 }  // namespace floatframe

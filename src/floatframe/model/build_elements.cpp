@@ -4,6 +4,7 @@
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/loop_mobility.hpp"
 #include "floatframe/model/model_builder.hpp"
 #include "floatframe/model/signal_order.hpp"
 
@@ -46,6 +47,15 @@ Vec3 ElementBuild::design_point(std::size_t port) const {
   return builder_.design_point(element.markers[port]);
 }
 
+Vec3 ElementBuild::design_axis(std::size_t port) const {
+  return design_pose(builder_.model, element.markers[port]).R.col(2);
+}
+
+const Joint* ElementBuild::joint(const std::string& name) const {
+  const auto k = builder_.joint_names.find(name);
+  return k ? &builder_.model.joints[*k] : nullptr;
+}
+
 double ElementBuild::step() const { return builder_.d.simulation.step; }
 
 void ElementBuild::error(ErrorCode code, const std::string& sentence) {
@@ -70,7 +80,7 @@ bool ModelBuilder::add_element(const ElementDescription& e) {
 }
 
 void ModelBuilder::holding_elements() {
-  for (const auto* list : {&d.rods, &d.couplings})
+  for (const auto* list : {&d.rods, &d.constraints, &d.couplings})
     for (const ElementDescription& e : *list) add_element(e);
   for (const JointDescription& j : d.joints) {
     if (j.motion &&

@@ -15,15 +15,6 @@ namespace floatframe {
 
 namespace {
 
-Mat3 frame_with_z(const Vec3& axis) {
-  Vec3 x, y;
-  const Vec3 z = unit_vector(axis);
-  orthonormal_complement(z, x, y);
-  Mat3 R;
-  R << x, y, z;
-  return R;
-}
-
 /// The direction of a line through p_WP about which a body has no inertia, in world axes: a bar
 /// without section inertia. Zero if there is none.
 Vec3 line_of_mass(const Body& body, const Vec3& p_WP) {
@@ -61,7 +52,7 @@ bool turns_without_inertia(const Model& model, const Joint& joint) {
 
 Mat3 joint_frame(const JointDescription& joint) {
   return joint_kind(joint.type).axes == JointAxes::none ? Mat3::Identity().eval()
-                                                        : frame_with_z(joint.axis);
+                                                        : frame_with_z(unit_vector(joint.axis));
 }
 
 void ModelBuilder::joints() {

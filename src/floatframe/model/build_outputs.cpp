@@ -216,8 +216,10 @@ int ModelBuilder::element(ElementList list, const std::string& name) const {
 }
 
 bool ModelBuilder::reaction(const OutputDescription& o, Output& out, const std::string& who) {
-  (o.rod ? out.element : out.joint) =
-      o.rod ? element(ElementList::rods, o.entity) : joint_names.index(o.entity);
+  if (o.rod || o.constraint)
+    out.element = element(o.rod ? ElementList::rods : ElementList::constraints, o.entity);
+  else
+    out.joint = joint_names.index(o.entity);
   if (out.element < 0 && out.joint < 0) return false;
   if (o.about) {
     out.marker = add_marker(o.at, Mat3::Identity(), false, o.origin.mark, who + ".about");

@@ -15,7 +15,11 @@
   entry(coordinate_displacement)      \
   entry(coordinate_angle)             \
   entry(drive_axis_angle)             \
-  entry(drive_distance)
+  entry(drive_distance)               \
+  entry(constant_velocity)            \
+  entry(cam_angle)                    \
+  entry(cam_displacement)             \
+  entry(on_curve)
 // clang-format on
 
 namespace floatframe {

@@ -17,6 +17,9 @@
 
 namespace floatframe {
 
+struct CamProfile;
+class SpaceCurve;
+
 struct ConstraintPart {
   ConstraintType type = ConstraintType::coincident;
   int a = -1, b = -1;  ///< markers
@@ -29,8 +32,11 @@ struct ConstraintPart {
   bool continues = false;
   int coordinate = -1;            ///< of its element, which the part adds to a sum
   const double* angle = nullptr;  ///< selects the turn of the coordinate; null: the first
-  double force = 1.0;  ///< of an element: its force per multiplier, tension or along a coordinate
+  double force = 1.0;  ///< of an element: its force per multiplier, tension, along a coordinate, or
+                       ///< a torque
   const TimeFunction* motion = nullptr;
+  const CamProfile* lift = nullptr;   ///< of a cam
+  const SpaceCurve* curve = nullptr;  ///< that b stays on
   ConstraintOwner owner;
   int rows() const noexcept;
   /// It prescribes the coordinate of its joint.

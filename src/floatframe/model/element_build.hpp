@@ -22,6 +22,10 @@ class ElementBuild : public ElementView {
   int road(const std::string& key) const;
   /// World position of a port in the design configuration.
   Vec3 design_point(std::size_t port) const;
+  /// The z axis of its marker there.
+  Vec3 design_axis(std::size_t port) const;
+  /// nullptr if it has an error.
+  const Joint* joint(const std::string& name) const;
   /// Of the simulation that the model describes [s].
   double step() const;
   /// Reports an error of the element.

@@ -90,15 +90,21 @@ MatX ElementView::matrix(const std::string& name) const {
   return value_or(key_value(*force_, key(name)), MatX());
 }
 
+CoordinateTerm ElementView::coordinate(const std::string& name) const {
+  return value_or(key_value(*force_, key(name)), CoordinateTerm());
+}
+
 std::vector<CoordinateTerm> ElementView::coordinates() const {
   std::vector<CoordinateTerm> all;
   for (const ElementKey& key : element_keys(force_->type())) {
     const auto value = key_value(*force_, key);
     if (key.kind == KeyKind::joint && value) all.push_back({std::get<std::string>(*value)});
-    if (key.kind == KeyKind::coordinate && value && !all.empty())
+    if (key.kind == KeyKind::own_coordinate && value && !all.empty())
       all.back().coordinate = std::get<int>(*value);
     if (const auto* terms = value ? std::get_if<std::vector<CoordinateTerm>>(&*value) : nullptr)
       all.insert(all.end(), terms->begin(), terms->end());
+    if (const auto* term = value ? std::get_if<CoordinateTerm>(&*value) : nullptr)
+      all.push_back(*term);
   }
   return all;
 }
@@ -106,7 +112,7 @@ std::vector<CoordinateTerm> ElementView::coordinates() const {
 bool ElementCheck::given(const std::string& key) const {
   if (description().origin.keys.contains(key)) return true;
   const auto value = key_value(description(), this->key(key));
-  if (this->key(key).kind == KeyKind::coordinate) return std::get<int>(*value) >= 0;
+  if (this->key(key).kind == KeyKind::own_coordinate) return std::get<int>(*value) >= 0;
   const auto* law = value ? std::get_if<PiecewisePolynomial>(&*value) : nullptr;
   if (const auto* matrix = value ? std::get_if<MatX>(&*value) : nullptr)
     return !matrix->isZero(0.0);

@@ -19,7 +19,7 @@ enum class KeyKind {
   place,             ///< {body, at} or {body, node}, also on the ground
   own_place,         ///< `body`, and `at` or `node`, among the keys of the force; not on the ground
   joint,             ///< the name of one
-  coordinate,        ///< the name of one of the joint that the key `joint` names, from 0; -1: none
+  own_coordinate,    ///< the name of one of the joint that the key `joint` names, from 0; -1: none
   road,              ///< the name of one
   direction,         ///< its length does not matter
   vector,            ///< the same, but used as given
@@ -36,6 +36,7 @@ enum class KeyKind {
   signals,           ///< a list of signals, bare numbers
   motion,            ///< function of time, a displacement; without jumps
   terms,             ///< coordinates of joints with factors
+  coordinate,        ///< of a joint: a displacement, an angle or either, as in `axis`
   stiffness_matrix,  ///< 6 x 6: three displacements and three rotations; or 2 x 2
   damping_matrix,    ///< the same of their rates
   function,          ///< of a program or by a formula, a force
@@ -43,6 +44,9 @@ enum class KeyKind {
   speed_table,       ///< rows of a speed and eight coefficients of a plane (bearing_table.hpp)
   table,             ///< rows of numbers, named by `words`, each valid as in `rule`
   matrix,            ///< of any size; a list of numbers is a row
+  points,            ///< rows of numbers, named by `words`, or a CSV file of them; may be absent
+  shape,             ///< a formula of one variable, the only one of `words`
+  numbers,           ///< a row, one of each of `words`, valid as in `rule`
   names,             ///< a list of names
   linear_file        ///< its matrices and names are those of other keys (linear_file.hpp)
 };
@@ -60,11 +64,13 @@ constexpr AxisUnits axis_units(bool turning) noexcept {
 }
 
 /// A value of a key: number, word by its place in the list of words, flag, name, direction, place,
-/// law, signal, matrix, function of time, terms, function of a program, formula, signals, names.
+/// law, signal, matrix, function of time, terms, function of a program, formula, signals, names,
+/// coordinate.
 using KeyValue =
     std::variant<double, int, bool, std::string, Vec3, AttachmentDescription, PiecewisePolynomial,
                  SignalDescription, MatX, TimeFunction, std::vector<CoordinateTerm>, ForceFunction,
-                 SharedFormula, std::vector<SignalDescription>, std::vector<std::string>>;
+                 SharedFormula, std::vector<SignalDescription>, std::vector<std::string>,
+                 CoordinateTerm>;
 
 /// A member of the struct of a type; none: a stop, which is part of its spring, or a file.
 struct KeyMember {
@@ -162,6 +168,7 @@ class ElementView {
   PiecewisePolynomial law(const std::string& name) const;
   std::optional<SignalDescription> signal(const std::string& name) const;
   MatX matrix(const std::string& name) const;  ///< 0 x 0: not given
+  CoordinateTerm coordinate(const std::string& name) const;
   /// The coordinates of joints that its keys name.
   std::vector<CoordinateTerm> coordinates() const;
 

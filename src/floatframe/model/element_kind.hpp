@@ -193,7 +193,7 @@ constexpr ElementKey joint_key(KeyMember member) {
 }
 constexpr ElementKey coordinate_key(KeyMember member) {
   return {.name = "coordinate",
-          .kind = KeyKind::coordinate,
+          .kind = KeyKind::own_coordinate,
           .about = "which one, if the joint has several",
           .member = member};
 }

@@ -45,10 +45,13 @@ void append_element_parts(const Model& model, int index, std::vector<ConstraintP
   part.owner.element = index;
   const std::size_t before = parts.size();
   element_kind(element.type).rows(model, element, part, parts);
-  // What reads multipliers knows one row, and of a part without a joint the first two markers.
+  // What holds coordinates of joints is one row, of several parts; what holds markers has any rows
+  // between the first two. Multipliers are found from the wrench of these by what reads them.
   for (std::size_t k = before; k < parts.size(); ++k) {
-    assert(parts[k].rows() == 1 && parts[k].continues == (k > before));
-    assert(parts[k].owner.joint >= 0 || (parts[k].a == element.markers[0] && k == before));
+    assert(element.links() || (parts[k].rows() == 1 && parts[k].continues == (k > before)));
+    assert(!element.links() || (parts[k].owner.joint < 0 && !parts[k].continues));
+    assert(!element.links() ||
+           (parts[k].a == element.markers[0] && parts[k].b == element.markers[1]));
   }
   static_cast<void>(before);
 }

@@ -195,7 +195,7 @@ struct Model {
   Vec3 gravity = Vec3::Zero();
   std::vector<Body> bodies;
   std::vector<Joint> joints;      ///< automatic free joints last
-  std::vector<Element> elements;  ///< of forces, controllers, rods, couplings, motions
+  std::vector<Element> elements;  ///< of forces, controllers, rods, constraints, couplings, motions
   std::vector<SignalLink> links;  ///< from element to element
   std::vector<Road> roads;
   std::vector<Input> inputs;

@@ -18,8 +18,8 @@ struct Reactions {
   /// Of each element with constraints: on the body of its second marker, about that.
   std::vector<Wrench> elements;
   /// Of each element with constraints: the tension of a rod [N], the force or torque of a motion
-  /// along the coordinate, on the child, that of a coupling on a factor of 1 [N, N m]; zero for
-  /// others.
+  /// along the coordinate, on the child, that of a coupling on a factor of 1, the size of that of a
+  /// constraint of several rows [N, N m]; zero for others.
   std::vector<double> forces;
   /// For each joint and element, in the velocity projection of the last step: on the child, on the
   /// body at `to` [N s].

@@ -60,6 +60,8 @@ struct ElementValidation {
       case K::speed_table:
       case K::table:
       case K::matrix:
+      case K::numbers:
+      case K::points:
         matrix(key, std::get<MatX>(*x));
         break;
       case K::load:
@@ -73,28 +75,37 @@ struct ElementValidation {
       case K::motion:
         entity.function(key.name, std::get<TimeFunction>(*x));
         break;
-      case K::terms: {
-        int number = 0;
-        for (const CoordinateTerm& term : std::get<std::vector<CoordinateTerm>>(*x)) {
-          const std::string path = std::string(key.name) + "[" + std::to_string(++number) + "].";
-          entity.reference(path + "joint", "joint", term.joint, names.joints);
-          entity.number(path + "factor", term.factor, any_number(""));
-        }
+      case K::terms:
+        terms(key.name, std::get<std::vector<CoordinateTerm>>(*x));
         break;
-      }
+      case K::coordinate:
+        entity.reference(key.name, "joint", std::get<CoordinateTerm>(*x).joint, names.joints);
+        break;
       case K::function:
-        if (const auto& f = std::get<ForceFunction>(*x); !f)
-          entity.error(ErrorCode::unsupported, key.name,
-                       sentences::function_in_file("'" + f.identity() + "'"));
+        program(key, std::get<ForceFunction>(*x));
         break;
+      case K::shape:
       case K::formula:
-        if (!std::get<SharedFormula>(*x))
-          entity.error(ErrorCode::missing, key.name, sentences::missing_formula());
+        formula(key, std::get<SharedFormula>(*x));
         break;
       default:  // flags, stops, names and files of linear systems
         break;
     }
     return entity.errors.size() == before;
+  }
+
+  void program(const ElementKey& key, const ForceFunction& f) const {
+    if (!f)
+      entity.error(ErrorCode::unsupported, key.name,
+                   sentences::function_in_file("'" + f.identity() + "'"));
+  }
+
+  /// Of a shape: of its variable alone.
+  void formula(const ElementKey& key, const SharedFormula& f) const {
+    if (!f)
+      entity.error(ErrorCode::missing, key.name, sentences::missing_formula());
+    else if (key.kind == KeyKind::shape)
+      entity.complain(ErrorCode::not_found, key.name, sentences::formula_of_one(*f, key.words[0]));
   }
 
   void signal(const std::string& path, const SignalDescription& s) const {
@@ -113,6 +124,15 @@ struct ElementValidation {
                    sentences::element_without(element_type_name(d.forces[*k].type()), s.source));
   }
 
+  void terms(const std::string& key, const std::vector<CoordinateTerm>& all) const {
+    int number = 0;
+    for (const CoordinateTerm& term : all) {
+      const std::string path = key + "[" + std::to_string(++number) + "].";
+      entity.reference(path + "joint", "joint", term.joint, names.joints);
+      entity.number(path + "factor", term.factor, any_number(""));
+    }
+  }
+
   void signals(const ElementKey& key, const std::vector<SignalDescription>& all) const {
     for (std::size_t i = 0; i < all.size(); ++i)
       signal(std::string(key.name) + "[" + std::to_string(i + 1) + "]", all[i]);
@@ -122,9 +142,17 @@ struct ElementValidation {
     if (key.kind == KeyKind::table && (M.rows() == 0 || M.cols() != std::ssize(key.words)))
       return entity.error(ErrorCode::wrong_count, key.name,
                           sentences::table_rows(M.rows(), M.cols(), key.words));
-    if (key.kind == KeyKind::matrix && key.required && M.size() == 0)
+    const bool numbers = key.kind == KeyKind::numbers, points = key.kind == KeyKind::points;
+    if (points && M.size() > 0 && M.cols() != std::ssize(key.words))
+      return entity.error(ErrorCode::wrong_count, key.name,
+                          sentences::table_rows(M.rows(), M.cols(), key.words));
+    if ((key.kind == KeyKind::matrix || numbers) && key.required && M.size() == 0)
       return entity.error(ErrorCode::missing, std::string("missing key '") + key.name + "'");
-    if (key.kind == KeyKind::table || key.kind == KeyKind::matrix) {
+    if (numbers && M.size() > 0 && (M.rows() != 1 || M.cols() != std::ssize(key.words)))
+      return entity.error(ErrorCode::wrong_count, key.name,
+                          "found " + std::to_string(M.size()) + " numbers, expected " +
+                              std::to_string(key.words.size()));
+    if (key.kind == KeyKind::table || key.kind == KeyKind::matrix || numbers || points) {
       for (Eigen::Index i = 0; i < M.size(); ++i) entity.number(key.name, M(i), key.rule);
     } else if (M.size() > 0) {
       entity.complain(ErrorCode::wrong_value, key.name,
@@ -155,7 +183,8 @@ struct ElementValidation {
 void elements(const ModelDescription& d, const Names& names, ErrorList& errors) {
   std::set<std::string> taken;
   for (const ElementList list :
-       {ElementList::rods, ElementList::couplings, ElementList::forces, ElementList::controllers}) {
+       {ElementList::rods, ElementList::constraints, ElementList::couplings, ElementList::forces,
+        ElementList::controllers}) {
     const std::string section = element_list_name(list);
     if (list != ElementList::controllers) taken.clear();  // states are named by both lists
     for (const ElementDescription& e : d.elements(list)) {

@@ -15,8 +15,9 @@ void validate(const ModelDescription& d, ErrorList& errors) {
   model.number("snap.angle", d.snap.angle, rules::snap_angle);
   model.number("snap.distance", d.snap.distance, rules::snap_distance);
   const validation::Names names{
-      NameIndex(d.bodies), NameIndex(d.joints), NameIndex(d.forces),    NameIndex(d.roads),
-      NameIndex(d.inputs), NameIndex(d.rods),   NameIndex(d.couplings), NameIndex(d.controllers)};
+      NameIndex(d.bodies),      NameIndex(d.joints),    NameIndex(d.forces),
+      NameIndex(d.roads),       NameIndex(d.inputs),    NameIndex(d.rods),
+      NameIndex(d.constraints), NameIndex(d.couplings), NameIndex(d.controllers)};
   validation::bodies(d, errors);
   validation::joints(d, names, errors);
   validation::roads(d, errors);

@@ -39,12 +39,18 @@ void force_output(const OutputDescription& o, const ModelDescription& d, const N
 }
 
 void reaction(const OutputDescription& o, const Names& names, const Entity& entity) {
-  entity.reference(output_type_name(o.type), o.rod ? "rod" : "joint", o.entity,
-                   o.rod ? names.rods : names.joints);
+  entity.reference(output_type_name(o.type),
+                   o.rod          ? "rod"
+                   : o.constraint ? "constraint"
+                                  : "joint",
+                   o.entity,
+                   o.rod          ? names.rods
+                   : o.constraint ? names.constraints
+                                  : names.joints);
   if (!entity.word("in", o.in, rules::reaction_axes)) return;
   if (o.in == OutputAxes::place)
     entity.place("in", o.to, names);
-  else if (o.rod && o.in != OutputAxes::world)
+  else if ((o.rod || o.constraint) && o.in != OutputAxes::world)
     entity.error(ErrorCode::wrong_value, "in", sentences::rod_has_no_axes());
 }
 

@@ -19,11 +19,12 @@
 
 namespace floatframe {
 
-enum class EntityKind { body, joint, rod, coupling, force, controller, road, input };
-inline constexpr std::array<const char*, 8> entity_words{"body",  "joint",      "rod",  "coupling",
-                                                         "force", "controller", "road", "input"};
-inline constexpr std::array<const char*, 8> entity_keys{
-    "bodies", "joints", "rods", "couplings", "forces", "controllers", "roads", "inputs"};
+enum class EntityKind { body, joint, rod, constraint, coupling, force, controller, road, input };
+inline constexpr std::array<const char*, 9> entity_words{
+    "body", "joint", "rod", "constraint", "coupling", "force", "controller", "road", "input"};
+inline constexpr std::array<const char*, 9> entity_keys{"bodies",      "joints",    "rods",
+                                                        "constraints", "couplings", "forces",
+                                                        "controllers", "roads",     "inputs"};
 
 struct ModelInstance {
   ReadContext context;

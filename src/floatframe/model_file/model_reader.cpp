@@ -16,10 +16,10 @@
 namespace floatframe {
 namespace {
 
-const char* const top_keys[] = {"floatframe",  "parameters", "points",     "bodies",
-                                "joints",      "rods",       "couplings",  "forces",
-                                "controllers", "roads",      "inputs",     "outputs",
-                                "measures",    "initial",    "subsystems", "external"};
+const char* const top_keys[] = {"floatframe", "parameters",  "points",    "bodies",   "joints",
+                                "rods",       "constraints", "couplings", "forces",   "controllers",
+                                "roads",      "inputs",      "outputs",   "measures", "initial",
+                                "subsystems", "external"};
 
 /// Keys allowed only in the model file itself.
 constexpr const char* whole_keys[] = {"gravity", "snap", "simulation"};
@@ -121,8 +121,9 @@ ModelDescription read_model(const std::string& path,
   if (root && root->root) {
     read_top(*root, path, model);
     every(*root, check_keys);
-    for (const auto part : {read_bodies, read_joints, read_rods, read_couplings, read_roads,
-                            read_inputs, read_forces, read_controllers, read_initial, read_outputs})
+    for (const auto part :
+         {read_bodies, read_joints, read_rods, read_constraints, read_couplings, read_roads,
+          read_inputs, read_forces, read_controllers, read_initial, read_outputs})
       every(*root, [&](const ModelInstance& self) { part(self, model); });
     read_simulation(*root, model);
     if (model.description.outputs.empty()) default_outputs(model);

@@ -1,7 +1,9 @@
 // Elements.
 #include <algorithm>
 
+#include "floatframe/description/rules.hpp"
 #include "floatframe/description/sentences.hpp"
+#include "floatframe/model/coupled_coordinates.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/joint_kind.hpp"
 #include "floatframe/model_file/linear_file.hpp"
@@ -20,7 +22,7 @@ class ElementReader {
   void read(const CoordinateTerm* on) {
     const ElementKind& kind = element_kind(f_.type());
     for (const ElementKey& key : kind.keys) {
-      if (on && (key.kind == KeyKind::joint || key.kind == KeyKind::coordinate)) {
+      if (on && (key.kind == KeyKind::joint || key.kind == KeyKind::own_coordinate)) {
         set_key_value(f_, key,
                       key.kind == KeyKind::joint ? KeyValue(on->joint) : KeyValue(on->coordinate));
         continue;
@@ -149,7 +151,7 @@ class ElementReader {
   }
 
   /// Of the joint read before.
-  std::optional<KeyValue> coordinate(const YamlValue& value) const {
+  std::optional<KeyValue> own_coordinate(const YamlValue& value) const {
     const std::vector<CoordinateTerm> of = check_.coordinates();
     const auto type = of.empty() ? std::nullopt : joint_type(of[0].joint);
     std::vector<std::string> words;
@@ -159,6 +161,43 @@ class ElementReader {
     return k ? std::optional(KeyValue(static_cast<int>(*k))) : std::nullopt;
   }
 
+  /// The keys `joint` and `coordinate`.
+  void take_coordinate(YamlSection& s, CoordinateTerm& term) const {
+    if (const auto joint = s.require("joint"))
+      term.joint = self_.reference(EntityKind::joint, *joint).value_or("");
+    const auto word = s.get("coordinate");
+    const auto type = joint_type(term.joint);
+    if (!type || !word) return;
+    std::vector<const char*> names;
+    for (int k = 0; k < joint_velocities(*type); ++k)
+      names.push_back(joint_coordinate_name(*type, k));
+    if (const auto k = word->word(names)) term.coordinate = static_cast<int>(*k);
+  }
+
+  /// A joint, or {joint, coordinate}; its factor is the sign of the mirrored one.
+  std::optional<KeyValue> coordinate(const YamlValue& value, ElementAxis what) const {
+    CoordinateTerm term;
+    if (value.is_scalar()) {
+      term.joint = self_.reference(EntityKind::joint, value).value_or("");
+    } else {
+      auto s = value.section("a joint, or {joint, coordinate}");
+      if (!s) return std::nullopt;
+      take_coordinate(*s, term);
+      s->finish();
+    }
+    if (const auto type = joint_type(term.joint))
+      if (const int k = coupled_component(*type, term.coordinate, what); k >= 0)
+        term.factor = mirrored_sign(*type, k, self_.world);
+    return term.joint.empty() ? std::nullopt : std::optional(KeyValue(std::move(term)));
+  }
+
+  static std::optional<KeyValue> numbers(const YamlValue& value, const ElementKey& key) {
+    const std::string what = "a list of " + std::to_string(key.words.size()) + " numbers";
+    const auto row = value.numbers(key.words.size(), key.words.size(), key.rule, what.c_str());
+    return row ? std::optional(KeyValue(MatX(MatX::Map(row->data(), 1, std::ssize(*row)))))
+               : std::nullopt;
+  }
+
   /// Factors of a mirrored file are those of the mirrored joints.
   std::optional<KeyValue> terms(const YamlValue& value) const {
     std::vector<CoordinateTerm> all;
@@ -166,18 +205,11 @@ class ElementReader {
       auto s = item.section("a term {joint, coordinate, factor}");
       if (!s) continue;
       CoordinateTerm term;
-      if (const auto joint = s->require("joint"))
-        term.joint = self_.reference(EntityKind::joint, *joint).value_or("");
-      const auto word = s->get("coordinate");
+      take_coordinate(*s, term);
       term.factor = s->number("factor", any_number(""), 1.0);
       s->finish();
-      if (const auto type = joint_type(term.joint)) {
-        std::vector<const char*> names;
-        for (int k = 0; k < joint_velocities(*type); ++k)
-          names.push_back(joint_coordinate_name(*type, k));
-        if (const auto k = word ? word->word(names) : std::nullopt) term.coordinate = *k;
+      if (const auto type = joint_type(term.joint))
         term.factor *= mirrored_sign(*type, std::max(0, term.coordinate), self_.world);
-      }
       all.push_back(std::move(term));
     }
     return value.is_list() ? std::optional(KeyValue(std::move(all))) : std::nullopt;
@@ -200,8 +232,8 @@ class ElementReader {
         return place_of(*value);
       case K::joint:
         return self_.reference(EntityKind::joint, *value);
-      case K::coordinate:
-        return coordinate(*value);
+      case K::own_coordinate:
+        return own_coordinate(*value);
       case K::road:
         return self_.reference(EntityKind::road, *value);
       case K::direction:
@@ -224,6 +256,12 @@ class ElementReader {
         return stop(key, *value);
       case K::function:  // `validate` refuses its name unless a program gives the function
         return read_force_function(self_, *value);
+      case K::shape: {
+        SharedFormula f = read_shape(self_, *value);
+        return f ? std::optional(KeyValue(std::move(f))) : std::nullopt;
+      }
+      case K::points:
+        return read_number_rows(*value, key.words, key.rule);
       case K::formula: {
         SharedFormula f = read_formula(self_, *value);
         return f ? std::optional(KeyValue(std::move(f))) : std::nullopt;
@@ -250,6 +288,10 @@ class ElementReader {
         return read_motion(self_, *value, u.displacement, Interpolation::cubic);
       case K::terms:
         return terms(*value);
+      case K::coordinate:
+        return coordinate(*value, key.axis);
+      case K::numbers:
+        return numbers(*value, key);
       case K::load:
         return read_signal(self_, *value, u.force, Interpolation::linear);
       case K::target:
@@ -297,23 +339,20 @@ void read_rods(const ModelInstance& self, ReadModel& model) {
         read_element(self, name, s, only_type(ElementList::rods), model));
 }
 
-void read_couplings(const ModelInstance& self, ReadModel& model) {
-  for (auto& [name, s] : active_entities(self, EntityKind::coupling))
-    model.description.couplings.push_back(
-        read_element(self, name, s, only_type(ElementList::couplings), model));
-}
-
 namespace {
 
-/// Of a list whose entities name their types.
+/// Of a list whose entities name their types; in `couplings` the first one needs no name.
 void read_typed(const ModelInstance& self, ReadModel& model, ElementList list, EntityKind kind,
                 std::vector<ElementDescription>& out) {
   const std::vector<ElementType> types = types_of(list);
   std::vector<const char*> words;
   for (const ElementType type : types) words.push_back(element_type_name(type));
   for (auto& [name, s] : active_entities(self, kind)) {
-    const auto value = s.require("type");
-    const auto type = value ? value->word(words) : std::nullopt;
+    const bool optional = list == ElementList::couplings;
+    const auto value = optional ? s.get("type") : s.require("type");
+    const auto type = value      ? value->word(words)
+                      : optional ? std::optional<std::size_t>(0)
+                                 : std::nullopt;
     if (!type) continue;
     out.push_back(read_element(self, name, s, types[*type], model));
   }
@@ -321,12 +360,22 @@ void read_typed(const ModelInstance& self, ReadModel& model, ElementList list, E
 
 }  // namespace
 
+void read_constraints(const ModelInstance& self, ReadModel& model) {
+  read_typed(self, model, ElementList::constraints, EntityKind::constraint,
+             model.description.constraints);
+}
+
 void read_forces(const ModelInstance& self, ReadModel& model) {
   std::vector<ElementDescription>& forces = model.description.forces;
   const std::size_t before = forces.size();
   read_typed(self, model, ElementList::forces, EntityKind::force, forces);
   for (std::size_t k = before; k < forces.size(); ++k)
     model.element_types.emplace(forces[k].name, forces[k].type());
+}
+
+void read_couplings(const ModelInstance& self, ReadModel& model) {
+  read_typed(self, model, ElementList::couplings, EntityKind::coupling,
+             model.description.couplings);
 }
 
 void read_controllers(const ModelInstance& self, ReadModel& model) {

@@ -48,8 +48,9 @@ class Binder {
     if (node.parts.empty()) return;
     SyntaxNode& entity = node.parts[0];
     if (entity.kind != SyntaxNode::Kind::name && entity.kind != SyntaxNode::Kind::text) return;
-    for (const EntityKind kind : {EntityKind::joint, EntityKind::force, EntityKind::controller,
-                                  EntityKind::body, EntityKind::rod, EntityKind::coupling})
+    for (const EntityKind kind :
+         {EntityKind::joint, EntityKind::force, EntityKind::controller, EntityKind::body,
+          EntityKind::rod, EntityKind::constraint, EntityKind::coupling})
       if (const auto full = self_.resolve(kind, entity.word)) {
         entity.word = *full;
         entity.kind = SyntaxNode::Kind::text;
@@ -121,6 +122,10 @@ SharedFormula compiled(const ModelInstance& self, const YamlValue& value, bool o
 
 SharedFormula read_formula(const ModelInstance& self, const YamlValue& value) {
   return compiled(self, value, false);
+}
+
+SharedFormula read_shape(const ModelInstance& self, const YamlValue& value) {
+  return compiled(self, value, true);
 }
 
 std::optional<ForceFunction> read_force_function(const ModelInstance& self,

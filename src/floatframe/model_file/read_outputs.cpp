@@ -290,15 +290,18 @@ class OutputReader {
     return true;
   }
 
-  /// A joint by its name, a rod as {rod: name}; `about` a point, `in` some axes.
+  /// A joint by its name, {rod: name} or {constraint: name}; `about` a point, `in` some axes.
   bool reaction(YamlSection& s, const YamlValue& what, OutputDescription& o) {
     bool good = false;
     if (what.is_map()) {
-      o.rod = true;
-      if (auto rod = what.section("a joint, or {rod: name}")) {
-        const auto value = rod->require("rod");
-        good = value && put(self_.reference(EntityKind::rod, *value), o.entity);
-        rod->finish();
+      if (auto holder = what.section("a joint, {rod: name} or {constraint: name}")) {
+        const auto constraint = holder->get("constraint");
+        o.constraint = constraint.has_value();
+        o.rod = !o.constraint;
+        const auto value = constraint ? constraint : holder->require("rod");
+        const EntityKind kind = o.rod ? EntityKind::rod : EntityKind::constraint;
+        good = value && put(self_.reference(kind, *value), o.entity);
+        holder->finish();
       }
     } else {
       good = put(self_.reference(EntityKind::joint, what), o.entity);
@@ -323,7 +326,7 @@ class OutputReader {
     const auto word = in.word(std::span(rules::reaction_axes).first(index_of(OutputAxes::place)));
     if (!word) return false;
     o.in = static_cast<OutputAxes>(*word);
-    if (!o.rod || o.in == OutputAxes::world) return true;
+    if ((!o.rod && !o.constraint) || o.in == OutputAxes::world) return true;
     in.error(ErrorCode::wrong_value, sentences::rod_has_no_axes());
     return false;
   }

@@ -42,6 +42,7 @@ struct ReadModel {
 void read_bodies(const ModelInstance& self, ReadModel& model);
 void read_joints(const ModelInstance& self, ReadModel& model);
 void read_rods(const ModelInstance& self, ReadModel& model);
+void read_constraints(const ModelInstance& self, ReadModel& model);
 void read_couplings(const ModelInstance& self, ReadModel& model);
 void read_controllers(const ModelInstance& self, ReadModel& model);
 void read_roads(const ModelInstance& self, ReadModel& model);
@@ -163,6 +164,8 @@ struct LawUnits {
 PiecewisePolynomial read_law(const YamlValue& value, double free, const LawUnits& units);
 /// A formula with the parameters and names of this file; nullptr after an error.
 SharedFormula read_formula(const ModelInstance& self, const YamlValue& value);
+/// A formula of one variable: names are not those of the model.
+SharedFormula read_shape(const ModelInstance& self, const YamlValue& value);
 /// {formula: ...} of x, v and t, or the name of a function that a program is to give.
 std::optional<ForceFunction> read_force_function(const ModelInstance& self, const YamlValue& value);
 /// The section `tables`.

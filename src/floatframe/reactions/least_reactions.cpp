@@ -317,25 +317,31 @@ void LeastReactions::multipliers(const Reactions& reactions, VecX& lambda) noexc
   // Elements first: the wrench of a joint includes those that hold its coordinates.
   for (k = 0; k < parts; ++k) {
     const ConstraintPart& p = all_.parts()[k];
-    if (p.owner.element >= 0) lambda[all_.offset(k)] = reactions.forces[p.owner.element] / p.force;
+    if (p.owner.element >= 0 && !model_.elements[p.owner.element].links())
+      lambda[all_.offset(k)] = reactions.forces[p.owner.element] / p.force;
   }
   for (k = 0; k < parts;) {
     const ConstraintPart& first = all_.parts()[k];
-    if (first.owner.element >= 0) {
+    const auto [joint, element] = first.owner;
+    if (element >= 0 && !model_.elements[element].links()) {
       ++k;
       continue;
     }
-    // The parts of a joint are consecutive: J_k^T lambda_k = -wrench of them, by the normal
-    // equations of its at most six rows.
-    const int joint = first.owner.joint, row = all_.offset(k);
+    // The parts of a joint, or of an element that links bodies, are consecutive: J_k^T lambda_k =
+    // -wrench of them, by the normal equations of its at most six rows.
+    const int row = all_.offset(k);
     const WrenchRow* gradients[6];
     int n = 0;
-    while (k < parts && all_.parts()[k].owner.joint == joint && all_.parts()[k].owner.element < 0)
+    while (k < parts && all_.parts()[k].owner.joint == joint &&
+           all_.parts()[k].owner.element == element)
       for (int r = 0, part = k++; r < all_.parts()[part].rows(); ++r)
         gradients[n++] = &all_.row(part, r).gradient;
-    const double length = model_.bodies[model_.joints[joint].child].length;
-    Reactions::Wrench wrench = reactions.joints[joint];
-    for (const int m : held_[joint]) {
+    // Rows of directions, which follow those of points, are scaled by a length.
+    const double length =
+        joint >= 0 ? model_.bodies[model_.joints[joint].child].length : all_.parts()[k - 1].scale;
+    Reactions::Wrench wrench = joint >= 0 ? reactions.joints[joint] : reactions.elements[element];
+    for (std::size_t i = 0; joint >= 0 && i < held_[joint].size(); ++i) {
+      const int m = held_[joint][i];
       const WrenchRow& g = all_.row(m, 0).gradient;
       wrench.force += lambda[all_.offset(m)] * g.b.F;
       wrench.torque += lambda[all_.offset(m)] * g.b.T;
@@ -375,8 +381,12 @@ void add_part_wrenches(const ConstraintSet& set, const VecX& lambda,
     const WrenchRow w = set.wrench(k, lambda);
     if (p.owner.element >= 0) {
       assert(is_index(p.owner.element, reactions.elements));
-      reactions.elements[p.owner.element] = {-w.b.F, -w.b.T};
-      reactions.forces[p.owner.element] = p.force * lambda[set.offset(k)];
+      const bool first = k == 0 || set.parts()[k - 1].owner.element != p.owner.element;
+      Reactions::Wrench& of = reactions.elements[p.owner.element];
+      if (first) of = {};
+      of.force -= w.b.F;
+      of.torque -= w.b.T;
+      if (first) reactions.forces[p.owner.element] = set.force_of(k, lambda.data() + set.offset(k));
     }
     if (p.owner.joint < 0) continue;
     assert(is_index(p.owner.joint, reactions.joints));

@@ -160,13 +160,14 @@ void ReactionSolver::collect_wrenches() noexcept {
 void ReactionSolver::set_impulses(const ConstraintSet& set, const VecX& impulses) noexcept {
   assert(impulses.size() == set.count());
   for (Vec3& x : reactions_.joint_impulses) x.setZero();
+  for (Vec3& x : reactions_.element_impulses) x.setZero();
   for (std::size_t k = 0; k < set.parts().size(); ++k) {
     const ConstraintOwner& owner = set.parts()[k].owner;
     const Vec3 on_b = -set.wrench(k, impulses).b.F;
     if (owner.joint >= 0)
       reactions_.joint_impulses[owner.joint] += on_b;
     else
-      reactions_.element_impulses[owner.element] = on_b;
+      reactions_.element_impulses[owner.element] += on_b;
   }
 }
 

@@ -3,6 +3,7 @@
 #include "floatframe/loops/redundancy.hpp"
 #include "floatframe/loops/run_error.hpp"
 #include "floatframe/loops/singular_position.hpp"
+#include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/joint_measure.hpp"
 #include "floatframe/start/initial_state.hpp"
 #include "floatframe/start/system_state.hpp"
@@ -27,6 +28,35 @@ bool out_of_proportion(const Model& model, const StaticsResult& s) {
   return load > 0.0 && reaction > most * load;
 }
 
+/// The measure of an element that holds, whose first part this is; zero of a constraint.
+double length_of(const Model& model, const ConstraintPart& part) {
+  if (part.motion) return evaluate(*part.motion, 0.0).f;
+  const ElementType type = model.elements[part.owner.element].type;
+  return element_kind(type).list == ElementList::constraints ? 0.0 : part.scale;
+}
+
+/// What the multipliers of cut joints, motions and elements that hold exert.
+void add_multipliers(const RelativeFormulation& f, const VecX& multipliers, StaticsResult& s) {
+  const ConstraintSet& set = f.constraint_set();
+  for (std::size_t k = 0; k < set.parts().size(); ++k) {
+    const ConstraintPart& p = set.parts()[k];
+    const double* lambda = multipliers.data() + set.offset(k);
+    const bool first = k == 0 || set.parts()[k - 1].owner.element != p.owner.element;
+    if (p.owner.element >= 0 && first) {
+      StaticsForce& force = s.forces[p.owner.element];
+      force.force = set.force_of(k, lambda);
+      force.length = length_of(f.model(), p);
+    }
+    if (p.owner.joint < 0) continue;
+    StaticsJoint& joint = s.joints[p.owner.joint];
+    for (int row = 0; row < p.rows(); ++row) {
+      const WrenchRow& g = set.row(k, row).gradient;
+      joint.force -= lambda[row] * g.b.F;
+      joint.torque -= lambda[row] * g.b.T;
+    }
+  }
+}
+
 /// Sets the reactions of joints and the forces of elements to those of least norm that balance the
 /// model, and marks those that are not unique. Nothing is changed if no balance exists.
 void set_reactions(const Model& model, const ConstraintAnalysis& analysis, StaticsResult& statics) {
@@ -46,8 +76,13 @@ void set_reactions(const Model& model, const ConstraintAnalysis& analysis, Stati
       const Eigen::Index i = analysis.row_of(k) + r;
       const WrenchRow& g = analysis.row(k, r).gradient;
       if (p.owner.element >= 0) {
-        statics.forces[p.owner.element].force = p.force * lambda[i];
-        statics.forces[p.owner.element].unique = !(balanced.row(i).norm() > 1e-7);
+        StaticsForce& of = statics.forces[p.owner.element];
+        const bool first = k == 0 || analysis.parts()[k - 1].owner.element != p.owner.element;
+        if (first && r == 0) {
+          of.force = analysis.force_of(k, lambda);
+          of.unique = true;
+        }
+        of.unique = of.unique && !(balanced.row(i).norm() > 1e-7);
       }
       if (p.owner.joint < 0) continue;
       const std::size_t owner = p.owner.joint;
@@ -113,23 +148,7 @@ StaticsResult statics(const Model& model) {
     s.joints.push_back(
         {model.joints[k].name, joint_type_name(model.joints[k].type), force, torque});
   }
-  // multipliers of cut joints, motions and elements
-  for (std::size_t k = 0; k < f.constraint_set().parts().size(); ++k) {
-    const ConstraintPart& p = f.constraint_set().parts()[k];
-    for (int row = 0; row < p.rows(); ++row) {
-      const double lambda = e.lambda[f.constraint_set().offset(k) + row];
-      const WrenchRow& g = f.constraint_set().row(k, row).gradient;
-      if (p.owner.element >= 0 && !p.continues) {
-        StaticsForce& force = s.forces[p.owner.element];
-        force.force = p.force * lambda;
-        force.length = p.motion ? evaluate(*p.motion, 0.0).f : p.scale;
-      }
-      if (p.owner.joint < 0) continue;
-      StaticsJoint& joint = s.joints[p.owner.joint];
-      joint.force -= lambda * g.b.F;
-      joint.torque -= lambda * g.b.T;
-    }
-  }
+  add_multipliers(f, e.lambda, s);
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     StaticsBody b;
     const BodyKinematics& m = motion.bodies[i];

@@ -1,5 +1,9 @@
 #include "floatframe/yaml/read_table.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -82,7 +86,60 @@ class TableReader {
     if (out_.good) take(*csv, x, f, choice);
   }
 
+  /// Of a CSV file, `columns` names or numbers of them; without them all of the file in order.
+  std::optional<MatX> number_rows(const YamlValue& at, const std::string& name,
+                                  const std::optional<YamlValue>& columns, std::size_t count,
+                                  DecimalSign sign) {
+    out_.file = (std::filesystem::path(*value_.context().file).parent_path() / name)
+                    .lexically_normal()
+                    .string();
+    const std::shared_ptr<const CsvFile> csv = parsed(at, sign);
+    if (!csv) return std::nullopt;
+    std::vector<std::size_t> chosen;
+    if (columns)
+      for (const YamlValue& c : columns->list("a list of columns by name or number"))
+        chosen.push_back(index_of_column(c, *csv));
+    else
+      for (std::size_t k = 0; k < csv->columns; ++k) chosen.push_back(k);
+    if (std::ranges::find(chosen, csv->columns) != chosen.end()) return std::nullopt;
+    if (chosen.size() != count || csv->rows() == 0) {
+      at.error(ErrorCode::wrong_count,
+               fmt::format("found {} columns and {} rows in '{}', expected {} columns and at least "
+                           "one row",
+                           chosen.size(), csv->rows(), out_.file, count));
+      return std::nullopt;
+    }
+    return taken(*csv, chosen);
+  }
+
  private:
+  std::optional<MatX> taken(const CsvFile& csv, const std::vector<std::size_t>& columns) {
+    MatX rows(static_cast<Eigen::Index>(csv.rows()), static_cast<Eigen::Index>(columns.size()));
+    bool good = true;
+    for (std::size_t k = 0; k < csv.rows(); ++k)
+      for (std::size_t j = 0; j < columns.size(); ++j) {
+        const double x = csv.at(k, columns[j]);
+        rows(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j)) = x;
+        if (rule_.holds(x)) continue;
+        good = false;
+        out_.error(ErrorCode::out_of_range, {{}, csv.lines[k], 1, k + 1},
+                   std::isnan(x) ? no_number(csv, k, columns[j])
+                                 : "found " + number_text(x) + ", expected " + rule_.expectation());
+      }
+    if (csv.uneven != 0) uneven(csv);
+    if (!out_.errors->take_of("rows in all CSV files of tables", csv.rows(), limits::table_rows,
+                              value_.mark(), value_.path()))
+      return std::nullopt;
+    return good && csv.uneven == 0 ? std::optional(std::move(rows)) : std::nullopt;
+  }
+
+  void uneven(const CsvFile& csv) {
+    out_.error(ErrorCode::wrong_count, {{}, csv.uneven_line, 1, csv.rows() + 1},
+               "found " + std::to_string(csv.uneven) + (csv.uneven == 1 ? " column" : " columns") +
+                   ", expected " + std::to_string(csv.columns) + " as in the first row");
+    out_.good = false;
+  }
+
   std::shared_ptr<const CsvFile> parsed(const YamlValue& at, DecimalSign sign) {
     CsvFiles own;
     CsvFiles& files = value_.context().tables ? *value_.context().tables : own;
@@ -160,11 +217,7 @@ class TableReader {
         return;
       out_.rows.push_back({{point[0], point[1]}, place.line, 1, place.number});
     }
-    if (csv.uneven == 0) return;
-    out_.error(ErrorCode::wrong_count, {{}, csv.uneven_line, 1, csv.rows() + 1},
-               "found " + std::to_string(csv.uneven) + (csv.uneven == 1 ? " column" : " columns") +
-                   ", expected " + std::to_string(csv.columns) + " as in the first row");
-    out_.good = false;
+    if (csv.uneven != 0) uneven(csv);
   }
 
   static std::string no_number(const CsvFile& csv, std::size_t row, std::size_t column) {
@@ -204,6 +257,43 @@ TableRows read_table_rows(const YamlValue& value, const NumberRule& rule, const 
   else if (const auto name = value.text(what.c_str()))
     reader.file(value, *name, {});
   return out;
+}
+
+std::optional<MatX> read_number_rows(const YamlValue& value, std::span<const char* const> columns,
+                                     const NumberRule& rule) {
+  TableRows out;
+  out.errors = value.context().errors;
+  TableReader reader(value, rule, "x", out);
+  const std::string row = fmt::format("[{}]", fmt::join(columns, ", "));
+  if (value.is_list()) {
+    const std::vector<YamlValue> items = value.list();
+    MatX rows(std::ssize(items), std::ssize(columns));
+    bool good = !items.empty();
+    if (!good) value.unexpected("rows " + row);
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+      const auto numbers =
+          items[i].numbers(columns.size(), columns.size(), rule, ("a row " + row).c_str());
+      good = good && numbers;
+      if (numbers) rows.row(i) = VecX::Map(numbers->data(), rows.cols()).transpose();
+    }
+    return good ? std::optional(std::move(rows)) : std::nullopt;
+  }
+  const std::string what =
+      "a list of rows " + row + ", the name of a CSV file or a map with file and columns";
+  if (!value.is_map()) {
+    const auto name = value.text(what.c_str());
+    if (!name) return std::nullopt;
+    return reader.number_rows(value, *name, std::nullopt, columns.size(), DecimalSign::automatic);
+  }
+  auto section = value.section();
+  const auto name = section->require("file"), chosen = section->get("columns");
+  DecimalSign sign = DecimalSign::automatic;
+  constexpr const char* words[] = {"automatic", "point", "comma"};
+  section->word("decimal", words, sign);
+  section->finish();
+  const auto text = name ? name->text("the name of a CSV file") : std::nullopt;
+  if (!text) return std::nullopt;
+  return reader.number_rows(*name, *text, chosen, columns.size(), sign);
 }
 
 }  // namespace floatframe

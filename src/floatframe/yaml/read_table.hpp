@@ -1,9 +1,12 @@
 #pragma once
 // Tables of two columns: a list of points [x, f] in the model file, or columns of a CSV file.
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "floatframe/math/piecewise_build.hpp"
+#include "floatframe/math/types.hpp"
 #include "floatframe/yaml/yaml_value.hpp"
 
 namespace floatframe {
@@ -29,5 +32,11 @@ struct TableRows {
 /// `point` describes a point for messages ("a point [x, f]"); `argument`: "x" or "time".
 TableRows read_table_rows(const YamlValue& value, const NumberRule& rule, const char* point,
                           const char* argument = "x");
+
+/// Rows of as many numbers as there are columns: a list of them, or a CSV file, relative to the
+/// present file: its name if it has these columns alone, in this order, or {file, columns, decimal}
+/// with the columns by names or numbers from 1. nullopt after an error; at least one row.
+std::optional<MatX> read_number_rows(const YamlValue& value, std::span<const char* const> columns,
+                                     const NumberRule& rule);
 
 }  // namespace floatframe

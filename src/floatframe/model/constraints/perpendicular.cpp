@@ -1,14 +1,11 @@
 // Perpendicular: a direction e = R_a e_a of a and a direction n = R_b n_b of b keep the product c
-// (0: a right angle).
-// The row is scaled by a body length l.
+// (0: a right angle). The row is scaled by a body length l.
 //   phi        l (e.n - c) = 0                                1 row
-//   gradient   l e x n on pi_a, -l e x n on pi_b: ds = dpi_a.(e x n) - dpi_b.(e x n)
-//   quad       l ((w_a x edot).n + 2 edot.ndot + e.(w_b x ndot)),  edot = w_a x e, ndot = w_b x n
-//   curvature  d(e x n) = (e n^T - e.n I) dpi_a + (e.n I - n e^T) dpi_b
+//   gradient, quad and curvature: l times those of two directions (direction_row.hpp)
 #include <cassert>
 
 #include "floatframe/math/contracts.hpp"
-#include "floatframe/model/constraint_part.hpp"
+#include "floatframe/model/direction_row.hpp"
 
 namespace floatframe {
 
@@ -19,14 +16,9 @@ void constraint_rows_of<ConstraintType::perpendicular>(const ConstraintPart& par
   assert(is_unit(part.e_a) && is_unit(part.n_b) && std::abs(part.c) <= 1.0);
   const Vec3 e = a.R * part.e_a;
   const Vec3 n = b.R * part.n_b;
-  const Vec3 torque = part.scale * e.cross(n);
+  clear_row(*rows);
+  add_direction_row(part.scale, e, n, a, b, *rows);
   rows->phi = part.scale * (e.dot(n) - part.c);
-  rows->gradient = {Vec3::Zero(), torque, Vec3::Zero(), -torque};
-  const Vec3 e_dot = a.w.cross(e);
-  const Vec3 n_dot = b.w.cross(n);
-  rows->quad =
-      part.scale * (a.w.cross(e_dot).dot(n) + 2.0 * e_dot.dot(n_dot) + e.dot(b.w.cross(n_dot)));
-  rows->phi_t = rows->phi_tt = 0.0;
 }
 
 template <>
@@ -35,17 +27,9 @@ void constraint_curvature_of<ConstraintType::perpendicular>(const ConstraintPart
                                                             const MarkerState& b,
                                                             const double* lambda,
                                                             Mat12& K) noexcept {
-  using namespace part_of;
   const Vec3 e = a.R * part.e_a;
   const Vec3 n = b.R * part.n_b;
-  const double weight = lambda[0] * part.scale;
-  Mat3 by_a = weight * e * n.transpose(), by_b = -weight * n * e.transpose();
-  by_a.diagonal().array() -= weight * e.dot(n);
-  by_b.diagonal().array() += weight * e.dot(n);
-  K.block<3, 3>(pi_a, pi_a) += by_a;
-  K.block<3, 3>(pi_a, pi_b) += by_b;
-  K.block<3, 3>(pi_b, pi_a) -= by_a;
-  K.block<3, 3>(pi_b, pi_b) -= by_b;
+  add_direction_curvature(lambda[0] * part.scale, e, n, K);
 }
 
 constinit const ConstraintKind perpendicular_constraint = {.points = false};

@@ -1,4 +1,5 @@
-// Force of a joint on its child, including that of its motion, or of a rod on the body at `to` [N].
+// Force of a joint on its child, including that of its motion, of a rod or a constraint on the
+// body at `to` [N].
 #include <cassert>
 
 #include "floatframe/model/output_kind.hpp"
@@ -18,7 +19,7 @@ double output_value_of<OutputType::joint_force>(const SystemMotion& motion, cons
 }
 
 constinit const OutputKind joint_force_output = {
-    .about = "force on the child, on the body at `to` of a rod",
+    .about = "force on the child, on the body at `to` of a rod or constraint",
     .of = OutputOf::reaction,
     .components = world_axes,
     .unit = "N",

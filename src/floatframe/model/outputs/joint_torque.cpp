@@ -1,6 +1,6 @@
-// Torque of a joint on its child, including that of its motion, or of a rod on the body at `to` [N
-// m]. With the force F and the torque T_M about the point M of the joint on the child (of a rod its
-// end at `to`), the torque about a point P is
+// Torque of a joint on its child, including that of its motion, of a rod or a constraint on the
+// body at `to` [N m]. With the force F and the torque T_M about the point M of the joint on the
+// child (of a rod or a constraint its end at `to`), the torque about a point P is
 //   T_P = T_M + (p_WM - p_WP) x F
 #include <cassert>
 
@@ -28,7 +28,7 @@ double output_value_of<OutputType::joint_torque>(const SystemMotion& motion, con
 }
 
 constinit const OutputKind joint_torque_output = {
-    .about = "torque on the child, on the body at `to` of a rod",
+    .about = "torque on the child, on the body at `to` of a rod or constraint",
     .of = OutputOf::reaction,
     .components = world_axes,
     .unit = "N m",

@@ -1,0 +1,44 @@
+// In plane: the point of `to` stays in the plane through the point of `from` whose normal turns
+// with the body of `from`: the row `in_plane`, z of the first marker along the normal. The force is
+// that along the normal on the body of `from`.
+#include "floatframe/model/axis_constraint.hpp"
+
+namespace floatframe {
+
+FLOATFRAME_NO_LAW(in_plane)
+
+namespace {
+
+constexpr ElementKey in_plane_keys[] = {
+    constraint_from_key<InPlane>("a point of the plane"),
+    constraint_to_key<InPlane>("the point that stays in the plane"),
+    constraint_axis_key<InPlane>("normal to the plane, fixed in the body of `from`")};
+
+bool in_plane_build(ElementBuild& build) {
+  return build_constraint(build, constraint_axes(build, "axis"), Mat3::Identity(), false);
+}
+
+void in_plane_rows(const Model& model, const Element& element, ConstraintPart part,
+                   std::vector<ConstraintPart>& parts) {
+  ConstraintParts(model, element, part, parts).add(ConstraintType::in_plane);
+}
+
+ElementExample in_plane_example(std::size_t, ExampleNumbers& numbers) {
+  return constraint_example<InPlane>(numbers);
+}
+
+}  // namespace
+
+constinit const ElementKind in_plane_element = {
+    .about = "a point stays in a plane of another body: one row",
+    .keys = in_plane_keys,
+    .list = ElementList::constraints,
+    .blank = [] { return ElementKeys(InPlane()); },
+    .validate = validate_constraint,
+    .build = in_plane_build,
+    .rows = in_plane_rows,
+    .picture = picture_of_constraint,
+    .regimes = constraint_regimes,
+    .example = in_plane_example};
+
+}  // namespace floatframe
