@@ -73,7 +73,11 @@ TEST(ValidateNamedCouplings, Gears) {
           g.ratio.reset();
           g.teeth = MatX{{20.0, 0.0}};
         },
-        "couplings.tie.teeth: out_of_range"}});
+        "couplings.tie.teeth: out_of_range"},
+       {[](Gear& g) { g.pressure_angle = 20.0; }, "couplings.tie.pressure_angle: out_of_range"},
+       {[](Gear& g) { g.helix_angle = 0.3; }, "couplings.tie.helix_angle: incomplete"},
+       {[](Gear& g) { g.flank = static_cast<GearFlank>(7); }, "couplings.tie.flank: out_of_range"},
+       {[](Gear& g) { g.pressure_angle = 0.35; }, "couplings.tie: geometry"}});
   expect_coupling_errors<BevelGear>(
       {.driver = {"a"}, .driven = {"cross"}, .ratio = 2.0},
       {{[](BevelGear& g) { g.ratio = -1.0; }, "couplings.tie.ratio: out_of_range"},

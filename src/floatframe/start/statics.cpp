@@ -49,7 +49,7 @@ void set_reactions(const Model& model, const ConstraintAnalysis& analysis, Stati
         statics.forces[p.owner.element].force = p.force * lambda[i];
         statics.forces[p.owner.element].unique = !(balanced.row(i).norm() > 1e-7);
       }
-      if (p.owner.joint < 0) continue;
+      if (p.counted_by() < 0) continue;
       const std::size_t owner = p.owner.joint;
       statics.joints[owner].force -= lambda[i] * g.b.F;
       statics.joints[owner].torque -= lambda[i] * g.b.T;
@@ -124,7 +124,7 @@ StaticsResult statics(const Model& model) {
         force.force = p.force * lambda;
         force.length = p.motion ? evaluate(*p.motion, 0.0).f : p.scale;
       }
-      if (p.owner.joint < 0) continue;
+      if (p.counted_by() < 0) continue;
       StaticsJoint& joint = s.joints[p.owner.joint];
       joint.force -= lambda * g.b.F;
       joint.torque -= lambda * g.b.T;
