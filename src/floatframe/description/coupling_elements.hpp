@@ -39,6 +39,11 @@ struct Gear {
   std::optional<double> pressure_angle = {};  ///< in the section normal to the teeth [rad]
   double helix_angle = 0.0;  ///< of the driver on its pitch circle, right-hand positive [rad]
   GearFlank flank = GearFlank::forward;
+  /// Elastic teeth, without the force at the pitch point: torque on the driver per angle of it
+  /// while the driven wheel is held, and its play.
+  std::optional<double> mesh_stiffness = {};  ///< [N m/rad]
+  double mesh_damping = 0.0;                  ///< [N m s/rad], while teeth touch
+  double backlash = 0.0;                      ///< [rad], both ways together
 };
 
 /// Two wheels on axes that cross. It exerts torques about the axes.
@@ -81,6 +86,9 @@ struct BeltDrive {
   CoordinateTerm driver, driven;
   MatX radii = {};       ///< 1 x 2: of the driver, of the driven pulley [m]
   bool crossed = false;  ///< the pulleys turn in opposite senses
+  /// Elastic: force along the belt, the difference of both strands, per length that it gives.
+  std::optional<double> stiffness = {};  ///< [N/m]
+  double damping = 0.0;                  ///< [N s/m]
 };
 
 /// A coordinate that follows another one: factor x the other + offset.

@@ -19,18 +19,45 @@
 // the axes rows of their tilts, which the joints keep zero, has exactly these wrenches as its
 // gradient: n at P on the driver, -n on the driven wheel and nothing on the housing, which feels
 // the reactions of the joints. So they are not counted as wrenches of the joints.
+//
+// With a stiffness of the mesh there is no row but a spring of q_1 + s i q_2 with a play
+// (coupled_spring.hpp).
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "floatframe/model/coupled_coordinates.hpp"
+#include "floatframe/model/coupled_spring.hpp"
 #include "floatframe/model/loop_mobility.hpp"
+#include "floatframe/model/port_measures.hpp"
 
 namespace floatframe {
 
-FLOATFRAME_NO_LAW(gear)
+namespace {
+
+/// What (4) is made of, in world axes of the design configuration; or the spring.
+struct GearTeeth {
+  CoupledSum sum;
+  bool at_pitch_point = false;
+  double w = 0.0;
+  Vec3 n = Vec3::Zero(), torques[2] = {Vec3::Zero(), Vec3::Zero()};
+  CoupledSpring spring = {};
+};
+
+template <class S>
+void gear_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
+  if (in.element.acts) pull_coupled(in, in.template data<GearTeeth>().spring, out);
+}
+
+}  // namespace
+
+FLOATFRAME_LAW(gear)
 
 namespace {
+
+BranchSide gear_side(const Ports& in) noexcept {
+  return coupled_side(in, in.data<GearTeeth>().spring);
+}
 
 constexpr const char* gear_wheels[] = {"driver", "driven"};
 constexpr const char* gear_flanks[] = {"forward", "backward"};
@@ -69,23 +96,39 @@ constexpr ElementKey gear_keys[] = {
      .about = "the flanks that carry: those of a driver that drives in the sense of its joint, or "
               "against it. The force of the others would push apart, too",
      .words = gear_flanks,
-     .member = described_by<&Gear::flank>}};
+     .member = described_by<&Gear::flank>},
+    {.name = "mesh_stiffness",
+     .kind = KeyKind::number,
+     .about = "torque on the driver per angle of it while the driven wheel is held; the gear is "
+              "then a spring",
+     .rule = positive_number("N m/rad"),
+     .fallback = no_number,
+     .member = described_by<&Gear::mesh_stiffness>},
+    {.name = "mesh_damping",
+     .kind = KeyKind::number,
+     .about = "the same per speed, while teeth touch; it does not hold them together",
+     .rule = non_negative_number("N m s/rad"),
+     .member = described_by<&Gear::mesh_damping>},
+    {.name = "backlash",
+     .kind = KeyKind::number,
+     .about = "play of the driver, from flank to flank",
+     .rule = non_negative_number("rad"),
+     .member = described_by<&Gear::backlash>}};
 
 void gear_validate(const ElementCheck& check) {
   validate_coordinates(check);
   validate_ratio(check);
+  if (check.good("mesh_stiffness") && check.has("pressure_angle"))
+    check.error(ErrorCode::exclusive, "mesh_stiffness",
+                "excludes 'pressure_angle'; remove one of them");
+  for (const char* key : {"mesh_damping", "backlash"})
+    if (check.good(key) && check.number(key) != 0.0 && !check.has("mesh_stiffness") &&
+        !check.wrong.contains("mesh_stiffness"))
+      check.error(ErrorCode::incomplete, key, "needs 'mesh_stiffness'");
   if (check.has("pressure_angle") || check.wrong.contains("pressure_angle")) return;
   if (check.good("helix_angle") && check.number("helix_angle") != 0.0)
     check.error(ErrorCode::incomplete, "helix_angle", "needs 'pressure_angle'");
 }
-
-/// What (4) is made of, in world axes of the design configuration.
-struct GearTeeth {
-  CoupledSum sum;
-  bool at_pitch_point = false;
-  double w = 0.0;
-  Vec3 n = Vec3::Zero(), torques[2] = {Vec3::Zero(), Vec3::Zero()};
-};
 
 /// (2), (3). False after an error.
 bool find_gear_teeth(ElementBuild& build, GearTeeth& teeth) {
@@ -135,6 +178,9 @@ bool gear_build(ElementBuild& build) {
   const double sense = keys.internal ? -senses[1] : senses[1];
   teeth.sum.factors = {1.0, sense * ratio_of(build)};
   if (keys.pressure_angle && !find_gear_teeth(build, teeth)) return false;
+  if (keys.mesh_stiffness)
+    teeth.spring = {spring_with_play(*keys.mesh_stiffness, keys.backlash), keys.mesh_damping,
+                    teeth.sum.factors[1]};
   build.element.data = std::make_shared<GearTeeth>(std::move(teeth));
   return true;
 }
@@ -182,9 +228,15 @@ void gear_mirror(ElementDescription& element, const Placement& x) {
   if (x.det() < 0.0) std::get<Gear>(element.kind).helix_angle *= -1.0;
 }
 
-ElementExample gear_example(std::size_t, ExampleNumbers& numbers) {
-  return coupled_example(Gear{.driver = {"a"}, .driven = {"b"}, .ratio = numbers(0.5, 3.0)}, 2,
-                         numbers);
+ElementExample gear_example(std::size_t regime, ExampleNumbers& numbers) {
+  Gear gear{.driver = {"a"}, .driven = {"b"}, .ratio = numbers(0.5, 3.0)};
+  if (regime > 0) gear.mesh_stiffness = 100.0;
+  ElementExample x = coupled_example(std::move(gear), 2, numbers);
+  if (regime == 0) return x;
+  GearTeeth teeth;
+  teeth.spring = coupled_spring_example(regime, x, numbers);
+  x.element.data = std::make_shared<GearTeeth>(std::move(teeth));
+  return x;
 }
 
 }  // namespace
@@ -201,8 +253,12 @@ constinit const ElementKind gear_element = {
     .validate = gear_validate,
     .build = gear_build,
     .rows = gear_rows,
+    .gives_way = [](const ElementKeys& k) { return std::get<Gear>(k).mesh_stiffness.has_value(); },
     .mirror = gear_mirror,
-    .regimes = holding_regimes,
+    .dual = gear_law<Dual>,
+    .side = gear_side,
+    .picture = picture_of_coordinate,
+    .regimes = coupled_spring_regimes,
     .example = gear_example};
 
 }  // namespace floatframe
