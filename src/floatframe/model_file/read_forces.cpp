@@ -8,6 +8,7 @@
 #include "floatframe/model/joint_kind.hpp"
 #include "floatframe/model_file/linear_file.hpp"
 #include "floatframe/model_file/read_parts.hpp"
+#include "floatframe/yaml/read_table.hpp"
 
 namespace floatframe {
 namespace {
