@@ -73,7 +73,19 @@ TEST(ValidateNamedCouplings, Gears) {
           g.ratio.reset();
           g.teeth = MatX{{20.0, 0.0}};
         },
-        "couplings.tie.teeth: out_of_range"}});
+        "couplings.tie.teeth: out_of_range"},
+       {[](Gear& g) { g.pressure_angle = 20.0; }, "couplings.tie.pressure_angle: out_of_range"},
+       {[](Gear& g) { g.helix_angle = 0.3; }, "couplings.tie.helix_angle: incomplete"},
+       {[](Gear& g) { g.flank = static_cast<GearFlank>(7); }, "couplings.tie.flank: out_of_range"},
+       {[](Gear& g) { g.pressure_angle = 0.35; }, "couplings.tie: geometry"},
+       {[](Gear& g) { g.mesh_stiffness = 0.0; }, "couplings.tie.mesh_stiffness: out_of_range"},
+       {[](Gear& g) { g.mesh_damping = 1.0; }, "couplings.tie.mesh_damping: incomplete"},
+       {[](Gear& g) { g.backlash = 0.01; }, "couplings.tie.backlash: incomplete"},
+       {[](Gear& g) {
+          g.mesh_stiffness = 1e4;
+          g.pressure_angle = 0.35;
+        },
+        "couplings.tie.mesh_stiffness: exclusive"}});
   expect_coupling_errors<BevelGear>(
       {.driver = {"a"}, .driven = {"cross"}, .ratio = 2.0},
       {{[](BevelGear& g) { g.ratio = -1.0; }, "couplings.tie.ratio: out_of_range"},
@@ -122,8 +134,10 @@ TEST(ValidateNamedCouplings, WhatSlides) {
        {[](ScrewDrive& s) { s.rotation = CoordinateTerm{"a"}; },
         "couplings.tie.joint: exclusive"}});
   expect_coupling_errors<BeltDrive>(
-      {{"a"}, {"b"}, MatX{{0.1, 0.2}}, false},
+      {.driver = {"a"}, .driven = {"b"}, .radii = MatX{{0.1, 0.2}}},
       {{[](BeltDrive& b) { b.radii(1) = -0.1; }, "couplings.tie.radii: out_of_range"},
+       {[](BeltDrive& b) { b.stiffness = -1.0; }, "couplings.tie.stiffness: out_of_range"},
+       {[](BeltDrive& b) { b.damping = 1.0; }, "couplings.tie.damping: incomplete"},
        {[](BeltDrive& b) { b.driven = {"cross"}; }, "couplings.tie: geometry"}});
   expect_coupling_errors<Mimic>(
       {{"a"}, {"slide"}, 0.5, 0.0},

@@ -5,6 +5,7 @@
 
 #include "floatframe/model/constraint_part.hpp"
 #include "floatframe/model_file/model_reader.hpp"
+#include "floatframe/start/statics.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace floatframe {
@@ -28,9 +29,9 @@ TEST(MirroredCouplings, HoldTheMirrorImage) {
   const test::TemporaryFolder folder;
   folder.write("drive.yaml", R"(floatframe: 1
 bodies:
-  nut: {position: [0, 1, 0], rigid: {mass: 1}}
-  wheel: {position: [0, 1.5, 0], rigid: {mass: 1}}
-  box: {position: [0, 2, 0], rigid: {mass: 1}}
+  nut: {position: [0, 1, 0], rigid: {mass: 1, inertia: [0.1, 0.1, 0.1]}}
+  wheel: {position: [0, 1.5, 0], rigid: {mass: 1, inertia: [0.1, 0.1, 0.1]}}
+  box: {position: [0, 2, 0], rigid: {mass: 1, inertia: [0.1, 0.1, 0.1]}}
 joints:
   nut: {type: cylindrical, child: nut, at: [0, 1, 0], axis: z}
   wheel: {type: revolute, child: wheel, at: [0, 1.5, 0], axis: z}
@@ -58,6 +59,37 @@ subsystems:
   EXPECT_EQ(factors[6], (Factors{1.0, 0.1}));
   EXPECT_EQ(factors[3], (Factors{1.0, -2.0}));
   EXPECT_EQ(factors[7], (Factors{-1.0, -2.0}));
+}
+
+// The force of the teeth is the mirror image: right-hand teeth become left-hand ones.
+TEST(MirroredCouplings, ReverseTheHandOfTeeth) {
+  const test::TemporaryFolder folder;
+  folder.write("drive.yaml", R"(floatframe: 1
+bodies:
+  pinion: {position: [0, 1, 0], rigid: {mass: 1, inertia: [0.1, 0.1, 0.1]}}
+  wheel: {position: [0.2, 1.3, 0.1], rigid: {mass: 1, inertia: [0.1, 0.1, 0.1]}}
+joints:
+  pinion: {type: revolute, child: pinion, at: [0, 1, 0], axis: z}
+  wheel: {type: revolute, child: wheel, at: [0.2, 1.3, 0.1], axis: z, motion: 0}
+couplings:
+  gear:
+    {type: gear, driver: pinion, driven: wheel, ratio: 3, pressure_angle: 0.35, helix_angle: 0.2}
+forces:
+  motor: {type: torque, body: pinion, direction: z, magnitude: 6}
+)");
+  const StaticsResult s = statics(build_model(read_model(folder.write("model.yaml", R"(floatframe: 1
+gravity: [0, 0, 0]
+subsystems:
+  left: {file: drive.yaml}
+  right: {file: drive.yaml, mirror: [{normal: y}]}
+simulation: {step: 1.0e-3, duration: 1}
+)"))));
+  ASSERT_EQ(s.joints.size(), 4u);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Vec3 &left = s.joints[k].force, &right = s.joints[k + 2].force;
+    EXPECT_GT(left.cwiseAbs().minCoeff(), 1.0);
+    EXPECT_LT((Vec3(left.x(), -left.y(), left.z()) - right).norm(), 1e-9 * left.norm());
+  }
 }
 
 }  // namespace

@@ -118,6 +118,70 @@ simulation: {step: 1.0e-3, duration: 1}
   }
 }
 
+/// Two wheels of 0.02 and 0.05 kg m2 that this coupling ties. `second`: more keys of the joint of
+/// the second one; the first one then turns.
+std::string two_wheels(const std::string& coupling, const std::string& second = "") {
+  return R"(
+gravity: [0, 0, 0]
+bodies:
+  one: {position: [0, 0, 0], rigid: {mass: 1, inertia: [0.01, 0.01, 0.02]}}
+  two: {position: [0.3, 0, 0], rigid: {mass: 2, inertia: [0.03, 0.03, 0.05]}}
+joints:
+  a: {type: revolute, child: one, at: [0, 0, 0], axis: z)" +
+         std::string(second.empty() ? "" : ", velocity: 2") + R"(}
+  b: {type: revolute, child: two, at: [0.3, 0, 0], axis: z)" +
+         second + "}\ncouplings: {tie: {" + coupling + R"(}}
+outputs:
+  a: {joint_position: a}
+  tie: {coupling_force: tie}
+simulation: {step: 1.0e-4, duration: 1}
+)";
+}
+
+// s = q_1 + c q_2: s'' = -k (1 / J_1 + c^2 / J_2) s
+TEST(ElasticCouplings, VibrateWithTheirStiffness) {
+  const std::pair<const char*, double> cases[] = {
+      {"type: gear, driver: a, driven: b, ratio: 3, mesh_stiffness: 700",
+       700.0 * (1.0 / 0.02 + 9.0 / 0.05)},
+      {"type: belt, driver: a, driven: b, radii: [0.1, 0.25], stiffness: 7.0e4",
+       700.0 * (1.0 / 0.02 + 6.25 / 0.05)}};
+  for (const auto& [coupling, square] : cases)
+    for (const Coordinates c : both_coordinates) {
+      double highest = 0.0;
+      for (const LinearMode& m :
+           linear_modes(linear_system(model_of(two_wheels(coupling)), {.coordinates = c})))
+        highest = std::max(highest, std::abs(m.lambda.imag()));
+      EXPECT_NEAR(highest / std::sqrt(square), 1.0, 1e-9) << coupling;
+    }
+}
+
+// Between the flanks of a wheel that is held: two ways through the play at 2 rad/s and two halves
+// of a vibration, with the torque k v / omega at their middle.
+TEST(ElasticCouplings, GoThroughTheirBacklash) {
+  const double omega = std::sqrt(2000.0 / 0.02), flight = 0.01, touch = pi / omega;
+  for (const Coordinates c : both_coordinates) {
+    ModelDescription d = description_of(two_wheels(
+        "type: gear, driver: a, driven: b, ratio: 1, mesh_stiffness: 2000, backlash: 0.02",
+        ", motion: 0"));
+    d.simulation.coordinates = c;
+    d.simulation.locate_edges = true;
+    d.simulation.step = 2e-5;
+    d.simulation.duration = 2.0 * (flight + touch);
+    const RunResult r = completed_run(d);
+    double most = 0.0, least = 0.0;
+    for (std::size_t k = 0; k < r.table.rows(); ++k) {
+      most = std::max(most, r.table.at(k, 2));
+      least = std::min(least, r.table.at(k, 2));
+    }
+    const double torque = 2000.0 * 2.0 / omega;
+    EXPECT_NEAR(least, -torque, 1e-3 * torque) << name_of(c);
+    EXPECT_NEAR(most, torque, 1e-3 * torque);
+    const std::size_t end = r.table.rows() - 1;
+    EXPECT_NEAR(r.table.at(end, 1), 2.0 * (r.table.at(end, 0) - d.simulation.duration), 1e-5);
+    EXPECT_LT(std::abs(r.summary.energy.remainder), 1e-4);
+  }
+}
+
 // Willis: z_s w_s + z_r w_r = (z_s + z_r) w_c, torques in the ratio z_s : z_r : -(z_s + z_r).
 TEST(Planetary, SpeedsAndTorques) {
   run_in_both(R"(

@@ -343,7 +343,8 @@ std::optional<ElementKeys> named_coupling(const ModelDescription& d,
     fit.push_back(BevelGear{turning[0], turning[1], ratio, {}, numbers(0.0, 1.0) < 0.5});
   if (turning.size() >= 2 && between(1) < 0.01) {
     fit.push_back(Gear{.driver = turning[0], .driven = turning[1], .ratio = ratio});
-    fit.push_back(BeltDrive{turning[0], turning[1], MatX{{0.1, 0.1 * ratio}}, false});
+    fit.push_back(
+        BeltDrive{.driver = turning[0], .driven = turning[1], .radii = MatX{{0.1, 0.1 * ratio}}});
   }
   if (turning.size() >= 3 && between(1) < 1.0 && between(2) < 1.0)
     fit.push_back(DifferentialGear{turning[0], turning[1], turning[2]});

@@ -24,14 +24,26 @@ struct Coupling {
   std::optional<TimeFunction> value;  ///< of time, without jumps; absent: 0
 };
 
+/// The flanks that carry: those of a driver that drives in the sense of its joint, or against it.
+enum class GearFlank { forward, backward };
+
 /// Two wheels that mesh, or are pressed together, on parallel axes. Wheels are the children of
-/// their joints, whose angles are coupled; senses follow from the axes as drawn. It exerts torques
-/// about the axes.
+/// their joints, whose angles are coupled; senses follow from the axes as drawn. Without a pressure
+/// angle it exerts torques about the axes; with one the force of the teeth at the pitch point,
+/// which divides the line between the joints in the ratio of the pitch circles.
 struct Gear {
   CoordinateTerm driver, driven;
   std::optional<double> ratio = {};  ///< turns of the driver per turn of the driven wheel, or ...
   MatX teeth = {};                   ///< ... 1 x 2: of the driver, of the driven wheel
   bool internal = false;             ///< one of them is a ring: both turn in the same sense
+  std::optional<double> pressure_angle = {};  ///< in the section normal to the teeth [rad]
+  double helix_angle = 0.0;  ///< of the driver on its pitch circle, right-hand positive [rad]
+  GearFlank flank = GearFlank::forward;
+  /// Elastic teeth, without the force at the pitch point: torque on the driver per angle of it
+  /// while the driven wheel is held, and its play.
+  std::optional<double> mesh_stiffness = {};  ///< [N m/rad]
+  double mesh_damping = 0.0;                  ///< [N m s/rad], while teeth touch
+  double backlash = 0.0;                      ///< [rad], both ways together
 };
 
 /// Two wheels on axes that cross. It exerts torques about the axes.
@@ -74,6 +86,9 @@ struct BeltDrive {
   CoordinateTerm driver, driven;
   MatX radii = {};       ///< 1 x 2: of the driver, of the driven pulley [m]
   bool crossed = false;  ///< the pulleys turn in opposite senses
+  /// Elastic: force along the belt, the difference of both strands, per length that it gives.
+  std::optional<double> stiffness = {};  ///< [N/m]
+  double damping = 0.0;                  ///< [N s/m]
 };
 
 /// A coordinate that follows another one: factor x the other + offset.

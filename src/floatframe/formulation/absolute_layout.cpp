@@ -70,7 +70,7 @@ AbsoluteTangent::AbsoluteTangent(const AbsoluteKinematics& kinematics,
     couple(p.a, p.b);
     const int a = body_of(p.a), b = body_of(p.b);
     for (const int body : {a, b}) {
-      if (body < 0) continue;
+      if (body < 0 || p.apart) continue;
       rows[body] += p.rows();
       if (a < 0 || b < 0) on_ground[body] += p.rows();
     }
@@ -87,6 +87,7 @@ AbsoluteTangent::AbsoluteTangent(const AbsoluteKinematics& kinematics,
         place.turns = constraint_kind(p.type).gradients == PartGradients::general;
     if (p.continues) continue;
     place.markers = constraints_.markers(k);
+    most_markers = std::max(most_markers, place.markers.size());
     for (const int marker : place.markers) {
       const int body = body_of(marker);
       if (body >= 0 && (place.home < 0 || rank[body] < rank[place.home])) place.home = body;

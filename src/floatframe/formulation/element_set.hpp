@@ -204,7 +204,8 @@ class ElementSet {
   }
   /// The angles of the element are continued from the present ones.
   void take_angles(std::size_t k) noexcept {
-    if (!model_.elements[k].reads) return set_angle(first_slot_[k], states_[k].length);
+    if (!model_.elements[k].reads && slots_[k].size() < 2)
+      return set_angle(first_slot_[k], states_[k].length);
     for (std::size_t i = 0; i < slots_[k].size(); ++i) {
       if (slots_[k][i] < 0) continue;
       const int port = model_.elements[k].coordinates[i].port;

@@ -47,8 +47,8 @@ Vec3 ElementBuild::design_point(std::size_t port) const {
   return builder_.design_point(element.markers[port]);
 }
 
-Vec3 ElementBuild::design_axis(std::size_t port) const {
-  return design_pose(builder_.model, element.markers[port]).R.col(2);
+Mat3 ElementBuild::design_axes(std::size_t port) const {
+  return design_pose(builder_.model, element.markers[port]).R;
 }
 
 const Joint* ElementBuild::joint(const std::string& name) const {

@@ -30,7 +30,8 @@ struct ConstraintPart {
   double scale = 1.0;  ///< l, or L of a distance
   /// Its only row is added to that of the part before: a sum over several pairs of markers.
   bool continues = false;
-  int coordinate = -1;            ///< of its element, which the part adds to a sum
+  bool apart = false;   ///< its wrench is not one of the joint that owns it: that of teeth
+  int coordinate = -1;  ///< of its element, which the part adds to a sum
   const double* angle = nullptr;  ///< selects the turn of the coordinate; null: the first
   double force = 1.0;  ///< of an element: its force per multiplier, tension, along a coordinate, or
                        ///< a torque
@@ -39,6 +40,8 @@ struct ConstraintPart {
   const SpaceCurve* curve = nullptr;  ///< that b stays on
   ConstraintOwner owner;
   int rows() const noexcept;
+  /// The joint whose wrench includes that of the part; -1: none.
+  int counted_by() const noexcept { return apart ? -1 : owner.joint; }
   /// It prescribes the coordinate of its joint.
   bool is_motion() const noexcept {
     return motion != nullptr && coordinate < 0 && owner.joint >= 0;

@@ -22,8 +22,10 @@ class ElementBuild : public ElementView {
   int road(const std::string& key) const;
   /// World position of a port in the design configuration.
   Vec3 design_point(std::size_t port) const;
-  /// The z axis of its marker there.
-  Vec3 design_axis(std::size_t port) const;
+  /// The axes of its marker there.
+  Mat3 design_axes(std::size_t port) const;
+  /// z of them.
+  Vec3 design_axis(std::size_t port) const { return design_axes(port).col(2); }
   /// nullptr if it has an error.
   const Joint* joint(const std::string& name) const;
   /// Of the simulation that the model describes [s].

@@ -107,6 +107,8 @@ struct ElementKind {
   /// Appends its constraints between its markers; `part` carries the element as their owner.
   void (*rows)(const Model& model, const Element& element, ConstraintPart part,
                std::vector<ConstraintPart>& parts) = nullptr;
+  /// With these keys it acts by its law, else it holds by its rows. Null: by what it has.
+  bool (*gives_way)(const ElementKeys& keys) = nullptr;
   /// Changes of the mirrored element besides mirrored points and directions.
   void (*mirror)(ElementDescription& element, const Placement& x) = nullptr;
   /// States and kept numbers of an element with these keys; null: none.

@@ -170,9 +170,11 @@ void take_keys(Element& element, const Model& model) {
   element.type = d.type();
   element.laws.clear();
   element.signals.clear();
-  element.acts = element_kind(element.type).dual != nullptr;
-  element.holds = element_kind(element.type).rows != nullptr;
-  element.reads = element_kind(element.type).list == ElementList::controllers;
+  const ElementKind& kind = element_kind(element.type);
+  const bool gives_way = kind.gives_way == nullptr || kind.gives_way(*element.keys);
+  element.acts = kind.dual != nullptr && gives_way;
+  element.holds = kind.rows != nullptr && !(kind.gives_way && gives_way);
+  element.reads = kind.list == ElementList::controllers;
   element.driven = calls_program(element.type);
   element.target_jumps = false;
   bool rate = false;
@@ -221,7 +223,7 @@ void evaluate_element(const Ports& in, Efforts& out) noexcept {
 }
 
 bool has_branches(const Element& element) noexcept {
-  if (element_kind(element.type).side == nullptr) return false;
+  if (element_kind(element.type).side == nullptr || !element.acts) return false;
   if (const auto* keys = std::get_if<FormulaValue>(element.keys.get()))
     return keys->formula->switches > 0;
   return element.laws.empty() ||

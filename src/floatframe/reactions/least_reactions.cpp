@@ -103,7 +103,7 @@ LeastReactions::LeastReactions(const Model& model)
     if (!goes_on) groups_.push_back({std::move(sides), k, 0, all_.offset(k), 0});
     ++groups_.back().parts;
     if (!p.continues) groups_.back().rows += p.rows();
-    if (p.owner.joint >= 0 && p.owner.element >= 0) held_[p.owner.joint].push_back(k);
+    if (p.counted_by() >= 0 && p.owner.element >= 0) held_[p.owner.joint].push_back(k);
     ++k;
   }
   for (Group& g : groups_)
@@ -241,6 +241,14 @@ void LeastReactions::find_load(const Formulation& f, const Reactions& reactions)
   for (std::size_t k = 0; k < model_.elements.size(); ++k)
     if (const Element& e = model_.elements[k]; e.links())
       add(e.markers[0], e.markers[1], reactions.elements[k]);
+  for (std::size_t k = 0; k < all_.parts().size(); ++k) {
+    const ConstraintPart& p = all_.parts()[k];
+    if (!p.apart) continue;
+    const double lambda = reactions.forces[p.owner.element] / p.force;
+    const WrenchRow& g = all_.row(k, 0).gradient;
+    add_load(f.local_marker(p.a), motion, lambda * g.a.F, lambda * g.a.T);
+    add_load(f.local_marker(p.b), motion, lambda * g.b.F, lambda * g.b.T);
+  }
 }
 
 bool LeastReactions::solve_sparse() noexcept {
@@ -388,7 +396,7 @@ void add_part_wrenches(const ConstraintSet& set, const VecX& lambda,
       of.torque -= w.b.T;
       if (first) reactions.forces[p.owner.element] = set.force_of(k, lambda.data() + set.offset(k));
     }
-    if (p.owner.joint < 0) continue;
+    if (p.counted_by() < 0) continue;
     assert(is_index(p.owner.joint, reactions.joints));
     Reactions::Wrench& joint = reactions.joints[p.owner.joint];
     joint.force -= w.b.F;

@@ -162,12 +162,12 @@ void ReactionSolver::set_impulses(const ConstraintSet& set, const VecX& impulses
   for (Vec3& x : reactions_.joint_impulses) x.setZero();
   for (Vec3& x : reactions_.element_impulses) x.setZero();
   for (std::size_t k = 0; k < set.parts().size(); ++k) {
-    const ConstraintOwner& owner = set.parts()[k].owner;
+    const ConstraintPart& p = set.parts()[k];
     const Vec3 on_b = -set.wrench(k, impulses).b.F;
-    if (owner.joint >= 0)
-      reactions_.joint_impulses[owner.joint] += on_b;
+    if (p.counted_by() >= 0)
+      reactions_.joint_impulses[p.owner.joint] += on_b;
     else
-      reactions_.element_impulses[owner.element] += on_b;
+      reactions_.element_impulses[p.owner.element] += on_b;
   }
 }
 

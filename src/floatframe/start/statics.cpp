@@ -47,7 +47,7 @@ void add_multipliers(const RelativeFormulation& f, const VecX& multipliers, Stat
       force.force = set.force_of(k, lambda);
       force.length = length_of(f.model(), p);
     }
-    if (p.owner.joint < 0) continue;
+    if (p.counted_by() < 0) continue;
     StaticsJoint& joint = s.joints[p.owner.joint];
     for (int row = 0; row < p.rows(); ++row) {
       const WrenchRow& g = set.row(k, row).gradient;
@@ -84,7 +84,7 @@ void set_reactions(const Model& model, const ConstraintAnalysis& analysis, Stati
         }
         of.unique = of.unique && !(balanced.row(i).norm() > 1e-7);
       }
-      if (p.owner.joint < 0) continue;
+      if (p.counted_by() < 0) continue;
       const std::size_t owner = p.owner.joint;
       statics.joints[owner].force -= lambda[i] * g.b.F;
       statics.joints[owner].torque -= lambda[i] * g.b.T;

@@ -1,12 +1,29 @@
-// Belt: two pulleys on parallel axes with a belt or chain that neither slips nor stretches. With
-// the sense s = 1 of axes that point in the same direction, else -1,
+// Belt: two pulleys on parallel axes with a belt or chain that does not slip. With the sense s = 1
+// of axes that point in the same direction, else -1,
 //   q_1 - s (r_2 / r_1) q_2 = 0,  crossed q_1 + s (r_2 / r_1) q_2 = 0:                          (1)
-// one row (coupled_coordinates.hpp), whose force is the torque on the driver.
+// one row (coupled_coordinates.hpp), whose force is the torque on the driver. With a stiffness k it
+// is a spring k r_1^2 of the same sum (coupled_spring.hpp).
 #include "floatframe/model/coupled_coordinates.hpp"
+#include "floatframe/model/coupled_spring.hpp"
+#include "floatframe/model/port_measures.hpp"
 
 namespace floatframe {
 
-FLOATFRAME_NO_LAW(belt)
+namespace {
+
+struct BeltData {
+  CoupledSum sum;
+  CoupledSpring spring = {};
+};
+
+template <class S>
+void belt_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
+  if (in.element.acts) pull_coupled(in, in.template data<BeltData>().spring, out);
+}
+
+}  // namespace
+
+FLOATFRAME_LAW(belt)
 
 namespace {
 
@@ -20,7 +37,26 @@ constexpr ElementKey belt_keys[] = {
     {.name = "crossed",
      .kind = KeyKind::flag,
      .about = "the belt crosses itself: the pulleys turn in opposite senses",
-     .member = described_by<&BeltDrive::crossed>}};
+     .member = described_by<&BeltDrive::crossed>},
+    {.name = "stiffness",
+     .kind = KeyKind::number,
+     .about = "force along the belt, the difference of its strands, per length by which one pulley "
+              "runs ahead; the belt is then a spring",
+     .rule = positive_number("N/m"),
+     .fallback = no_number,
+     .member = described_by<&BeltDrive::stiffness>},
+    {.name = "damping",
+     .kind = KeyKind::number,
+     .about = "the same per speed",
+     .rule = non_negative_number("N s/m"),
+     .member = described_by<&BeltDrive::damping>}};
+
+void belt_validate(const ElementCheck& check) {
+  validate_coordinates(check);
+  if (check.good("damping") && check.number("damping") != 0.0 && !check.has("stiffness") &&
+      !check.wrong.contains("stiffness"))
+    check.error(ErrorCode::incomplete, "damping", "needs 'stiffness'");
+}
 
 bool belt_build(ElementBuild& build) {
   if (!connect_coupled(build, "driver") || !connect_coupled(build, "driven")) return false;
@@ -28,15 +64,31 @@ bool belt_build(ElementBuild& build) {
   if (senses.empty()) return false;
   const BeltDrive& keys = build.keys<BeltDrive>();
   const double sense = keys.crossed ? senses[1] : -senses[1];
-  build.element.data =
-      std::make_shared<CoupledSum>(CoupledSum{{1.0, sense * keys.radii(1) / keys.radii(0)}});
+  const double r_1 = keys.radii(0), factor = sense * keys.radii(1) / r_1;
+  BeltData belt{.sum = {{1.0, factor}}};
+  if (keys.stiffness)
+    belt.spring = {spring_with_play(*keys.stiffness * r_1 * r_1, 0.0), keys.damping * r_1 * r_1,
+                   factor};
+  build.element.data = std::make_shared<BeltData>(std::move(belt));
   return true;
 }
 
-ElementExample belt_example(std::size_t, ExampleNumbers& numbers) {
+void belt_rows(const Model& model, const Element& element, ConstraintPart part,
+               std::vector<ConstraintPart>& parts) {
+  const CoupledSum& sum = static_cast<const BeltData*>(element.data.get())->sum;
+  append_sum(model, element, sum.factors, &sum.value, part, parts);
+}
+
+ElementExample belt_example(std::size_t regime, ExampleNumbers& numbers) {
   BeltDrive belt;
   belt.radii = MatX{{numbers(0.1, 0.3), numbers(0.1, 0.3)}};
-  return coupled_example(std::move(belt), 2, numbers);
+  if (regime > 0) belt.stiffness = 100.0;
+  ElementExample x = coupled_example(std::move(belt), 2, numbers);
+  if (regime == 0) return x;
+  BeltData data;
+  data.spring = coupled_spring_example(regime, x, numbers);
+  x.element.data = std::make_shared<BeltData>(std::move(data));
+  return x;
 }
 
 }  // namespace
@@ -50,10 +102,13 @@ constinit const ElementKind belt_element = {
     .list = ElementList::couplings,
     .axis = ElementAxis::coordinate,
     .blank = [] { return ElementKeys(BeltDrive()); },
-    .validate = [](const ElementCheck& check) { validate_coordinates(check); },
+    .validate = belt_validate,
     .build = belt_build,
-    .rows = coupled_rows,
-    .regimes = holding_regimes,
+    .rows = belt_rows,
+    .gives_way = [](const ElementKeys& k) { return std::get<BeltDrive>(k).stiffness.has_value(); },
+    .dual = belt_law<Dual>,
+    .picture = picture_of_coordinate,
+    .regimes = std::span(coupled_spring_regimes).first(2),
     .example = belt_example};
 
 }  // namespace floatframe

@@ -8,6 +8,8 @@ namespace floatframe {
 template <>
 double output_value_of<OutputType::coupling_force>(const SystemMotion& motion, const Output& output,
                                                    FollowedOutput&) noexcept {
+  // Of elastic teeth and belts it is no reaction.
+  if (motion.model.elements[output.element].acts) return motion.effort(output.element).force;
   assert(is_index(output.element, motion.reactions->forces));
   return motion.reactions->forces[output.element];
 }
