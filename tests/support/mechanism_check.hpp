@@ -15,8 +15,8 @@
 //                  mass, and the other stops in its first step for the same
 //   stopped        both run and stop before the end at all steps, with a sentence; at all but the
 //                  largest if it says that a singular position is next: large steps may leap it,
-//                  and one may where the other does not, if d < 1e-6 at the steps where both do, or if
-//                  there are none and d falls by 3 to 5 in the first half of what both run
+//                  and one may where the other does not, if d < 1e-6 at the steps where both do,
+//                  or if there are none and d falls by 3 to 5 in the first half of what both run
 //   weightless     a run stops with the sentence that a body can move almost without mass where it
 //                  has come to: its speed is unbounded there, or its place jumps. Until half of
 //                  that time d falls by 3 to 5 at some halving, or is below 1e-8. Or all run, and

@@ -257,14 +257,12 @@ class ElementReader {
         return stop(key, *value);
       case K::function:  // `validate` refuses its name unless a program gives the function
         return read_force_function(self_, *value);
-      case K::shape: {
-        SharedFormula f = read_shape(self_, *value);
-        return f ? std::optional(KeyValue(std::move(f))) : std::nullopt;
-      }
       case K::points:
         return read_number_rows(*value, key.words, key.rule);
+      case K::shape:
       case K::formula: {
-        SharedFormula f = read_formula(self_, *value);
+        const bool shape = key.kind == K::shape;
+        SharedFormula f = shape ? read_shape(self_, *value) : read_formula(self_, *value);
         return f ? std::optional(KeyValue(std::move(f))) : std::nullopt;
       }
       case K::stiffness_matrix:

@@ -7,6 +7,7 @@
 
 #include "floatframe/math/contracts.hpp"
 #include "floatframe/math/dense.hpp"
+#include "floatframe/reactions/part_wrenches.hpp"
 
 namespace floatframe {
 
@@ -380,28 +381,6 @@ void LeastReactions::shorten_dense(VecX& lambda) noexcept {
 void LeastReactions::wrenches(const VecX& lambda, Reactions& reactions) const noexcept {
   for (Reactions::Wrench& w : reactions.joints) w = {};
   add_part_wrenches(all_, lambda, reactions);
-}
-
-void add_part_wrenches(const ConstraintSet& set, const VecX& lambda,
-                       Reactions& reactions) noexcept {
-  for (std::size_t k = 0; k < set.parts().size(); ++k) {
-    const ConstraintPart& p = set.parts()[k];
-    const WrenchRow w = set.wrench(k, lambda);
-    if (p.owner.element >= 0) {
-      assert(is_index(p.owner.element, reactions.elements));
-      const bool first = k == 0 || set.parts()[k - 1].owner.element != p.owner.element;
-      Reactions::Wrench& of = reactions.elements[p.owner.element];
-      if (first) of = {};
-      of.force -= w.b.F;
-      of.torque -= w.b.T;
-      if (first) reactions.forces[p.owner.element] = set.force_of(k, lambda.data() + set.offset(k));
-    }
-    if (p.counted_by() < 0) continue;
-    assert(is_index(p.owner.joint, reactions.joints));
-    Reactions::Wrench& joint = reactions.joints[p.owner.joint];
-    joint.force -= w.b.F;
-    joint.torque -= w.b.T;
-  }
 }
 
 }  // namespace floatframe

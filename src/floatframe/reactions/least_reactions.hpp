@@ -21,10 +21,6 @@
 
 namespace floatframe {
 
-/// Adds the wrenches of these multipliers to those of the joints, and sets those of rods and
-/// motions.
-void add_part_wrenches(const ConstraintSet& set, const VecX& lambda, Reactions& reactions) noexcept;
-
 class LeastReactions {
  public:
   /// Allocates.

@@ -8,6 +8,7 @@
 #include "floatframe/core/debug_only.hpp"
 #include "floatframe/math/contracts.hpp"
 #include "floatframe/model/output_kind.hpp"
+#include "floatframe/reactions/part_wrenches.hpp"
 #include "floatframe/start/initial_state.hpp"
 
 namespace floatframe {
