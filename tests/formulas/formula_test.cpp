@@ -78,6 +78,8 @@ TEST(Formula, Faults) {
   EXPECT_EQ(fault_of("x ^ 0.5", {-4.0}), "'(x ^ 0.5)' is not defined for -4");
   EXPECT_EQ(fault_of("exp(x)", {1e4}), "'exp(x)' is not a finite number");
   EXPECT_EQ(value("if(x > 0, sqrt(x), 0)", {-4.0}), 0.0);
+  EXPECT_EQ(value("max(x, 0) ^ y", {-4.0, 1.5}), 0.0);
+  EXPECT_EQ(fault_of("x ^ y", {0.0, -1.0}), "'(x ^ y)' is not defined for 0");
 }
 
 TEST(Formula, Errors) {

@@ -2,6 +2,7 @@
 // Evaluation of formulas. Step time: no heap, noexcept.
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -16,7 +17,8 @@ namespace floatframe {
 struct FormulaFault {
   enum class Kind { none, division, domain, overflow } kind = Kind::none;
   int step = -1;
-  double at = 0.0;  ///< the argument
+  double at = 0.0;      ///< the argument
+  bool beyond = false;  ///< the function goes on there if a piece is held beyond its edge
 };
 /// "division by zero in '(x / y)'"
 std::string fault_text(const Formula& formula, const FormulaFault& fault);
@@ -139,6 +141,11 @@ class FormulaMachine {
   void fail(FormulaFault::Kind kind, double argument) noexcept {
     if (fault_.kind == FormulaFault::Kind::none) fault_ = {kind, at_, argument};
   }
+  /// Of a function that goes on beyond its end if a piece is held there.
+  void fail_beyond(double argument) noexcept {
+    if (fault_.kind == FormulaFault::Kind::none)
+      fault_ = {FormulaFault::Kind::domain, at_, argument, true};
+  }
   void take(int n, const FunctionValue& g) noexcept { leave(n, composed(g, operand(n, 0))); }
   /// Where it has no slope, that is taken as zero, as by `sqrt` of dual numbers.
   void take_root(const FunctionValue& g) noexcept {
@@ -220,25 +227,25 @@ class FormulaMachine {
     switch (s.op) {
       case Op::unary: {
         const double x = number(1, 0);
-        if (!s.function->defined(x)) fail(FormulaFault::Kind::domain, x);
-        return take_root(s.function->at(x));
+        if (s.function->defined(x)) return take_root(s.function->at(x));
+        if (s.function->end == nullptr) {
+          fail(FormulaFault::Kind::domain, x);
+          return take_root(s.function->at(x));
+        }
+        fail_beyond(x);
+        return take_root(s.function->beyond(x));
       }
       case Op::power_of_number: {
         const double x = number(1, 0), n = s.number;
+        if (x < 0.0 && n > 0.0 && n != std::floor(n)) return odd_power(x, n);
         if ((x < 0.0 && n != std::floor(n)) || (x == 0.0 && n < 0.0))
           fail(FormulaFault::Kind::domain, x);
         const double slope = n == 0.0 ? 0.0 : n * std::pow(x, n - 1.0);
         const double bend = n * (n - 1.0) == 0.0 ? 0.0 : n * (n - 1.0) * std::pow(x, n - 2.0);
         return take_root({std::pow(x, n), slope, bend});
       }
-      case Op::power: {  // a^b = exp(b log a)
-        const double x = number(2, 0);
-        if (!(x > 0.0)) fail(FormulaFault::Kind::domain, x);
-        const S exponent =
-            operand(2, 1) * composed({std::log(x), 1.0 / x, -1.0 / (x * x)}, operand(2, 0));
-        const double e = std::exp(value_of(exponent));
-        return leave(2, composed({e, e, e}, exponent));
-      }
+      case Op::power:  // a^b = exp(b log a)
+        return power();
       case Op::atan2: {  // the arc tangent of y/x or of -x/y, and a constant
         const double y = number(2, 0), x = number(2, 1);
         if (x == 0.0 && y == 0.0) return leave(2, 0.0);
@@ -278,6 +285,25 @@ class FormulaMachine {
         assert(false);
     }
   }
+  /// |x|^n with the sign of x: what x^n of a held piece is beyond its edge.
+  void odd_power(double x, double n) noexcept {
+    fail_beyond(x);
+    const double size = -x, p = std::pow(size, n - 1.0);
+    take_root({-size * p, n * p, -n * (n - 1.0) * p / size});
+  }
+  void power() noexcept {
+    const double x = number(2, 0), b = number(2, 1);
+    if (x == 0.0 && b > 0.0) return leave(2, composed({0.0, b == 1.0 ? 1.0 : 0.0}, operand(2, 0)));
+    const double sign = x < 0.0 ? -1.0 : 1.0;
+    if (x < 0.0 && b > 0.0)
+      fail_beyond(x);
+    else if (!(x > 0.0))
+      fail(FormulaFault::Kind::domain, x);
+    const S exponent =
+        operand(2, 1) * composed({std::log(sign * x), 1.0 / x, -1.0 / (x * x)}, operand(2, 0));
+    const double e = sign * std::exp(value_of(exponent));
+    leave(2, composed({e, e, e}, exponent));
+  }
   /// sin(2 pi (f0 x + (f1 - f0) x^2 / (2 T))) for x in [0, T], then sin of the frequency f1 (x, f0,
   /// f1, T).
   void chirp() noexcept {
@@ -304,11 +330,14 @@ class FormulaMachine {
   int top_ = 0, at_ = 0;
 };
 
-/// The value with `value_of_reference(i)` of each reference; with a fault it is not a number.
+/// The value with `value_of_reference(i)` of each reference; with a fault it is not a number. A
+/// trial step that holds a piece beyond its edge, to find the edge, may leave the range of a root
+/// or power of that piece: there the function goes on.
 template <class S, class ValueOf>
 S evaluate_formula(const Formula& f, const ValueOf& value_of_reference, FormulaSwitches& switches,
                    FormulaFault& fault) noexcept {
   const S y = FormulaMachine<S, ValueOf>(f, value_of_reference, switches, fault).run();
+  if (fault.beyond && switches.beyond > 0.0 && std::isfinite(value_of(y))) fault = {};
   if (fault.kind == FormulaFault::Kind::none && !std::isfinite(value_of(y)))
     fault.kind = FormulaFault::Kind::overflow, fault.step = std::ssize(f.steps) - 1;
   return fault.kind == FormulaFault::Kind::none ? y : S(std::numeric_limits<double>::quiet_NaN());

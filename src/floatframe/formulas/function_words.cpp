@@ -25,6 +25,7 @@ constexpr std::array<std::pair<const char*, double>, 7> constants{{
 
 bool any_argument(double) { return true; }
 bool within_one(double x) { return std::abs(x) <= 1.0; }
+double nearer_one(double x) { return x < 0.0 ? -1.0 : 1.0; }
 double squared(double x) { return x * x; }
 
 constexpr std::array unary_functions{
@@ -33,7 +34,7 @@ constexpr std::array unary_functions{
                     const double r = std::sqrt(x);
                     return {r, 0.5 / r, -0.25 / (x * r)};
                   },
-                  [](double x) { return x >= 0.0; }},
+                  [](double x) { return x >= 0.0; }, [](double) { return 0.0; }},
     UnaryFunction{"sin",
                   [](double x) -> FunctionValue {
                     const double s = std::sin(x);
@@ -57,13 +58,13 @@ constexpr std::array unary_functions{
                     const double d = 1.0 / std::sqrt(1.0 - x * x);
                     return {std::asin(x), d, x * d * d * d};
                   },
-                  within_one},
+                  within_one, nearer_one},
     UnaryFunction{"acos",
                   [](double x) -> FunctionValue {
                     const double d = 1.0 / std::sqrt(1.0 - x * x);
                     return {std::acos(x), -d, -x * d * d * d};
                   },
-                  within_one},
+                  within_one, nearer_one},
     UnaryFunction{"atan",
                   [](double x) -> FunctionValue {
                     const double d = 1.0 / (1.0 + x * x);

@@ -18,6 +18,16 @@ struct UnaryFunction {
   const char* name;
   FunctionValue (*at)(double x);
   bool (*defined)(double x);
+  /// Where it ends with a finite value: the end of its range next to x. Null: nowhere.
+  double (*end)(double x) = nullptr;
+
+  /// Beyond an end e a function of a held piece goes on as the image of what is before it, turned
+  /// about its end: 2 f(e) - f(2 e - x).
+  FunctionValue beyond(double x) const {
+    const double e = end(x);
+    const FunctionValue image = at(2.0 * e - x);
+    return {2.0 * at(e).f - image.f, image.df, -image.ddf};
+  }
 };
 /// nullptr if there is none of that name.
 const UnaryFunction* unary_function(std::string_view name);

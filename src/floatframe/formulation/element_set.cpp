@@ -1,5 +1,8 @@
 #include "floatframe/formulation/element_set.hpp"
 
+#include <cmath>
+
+#include "floatframe/formulas/formula_evaluation.hpp"
 #include "floatframe/model/constraint_part.hpp"
 
 namespace floatframe {
@@ -33,6 +36,22 @@ ElementSet::ElementSet(const Model& model)
   kept_angles_ = angles_;
   branches_.assign(model.elements.size(), free_branch);
   for (const Input& input : model.inputs) inputs_.push_back(input.initial);
+}
+
+int ElementSet::undefined(double t) const noexcept {
+  const auto finite = [](double x) { return std::isfinite(x); };
+  for (const std::size_t k : acting_) {
+    const Element& e = model_.elements[k];
+    if (!e.reads) continue;
+    const Efforts& now = states_[k];
+    bool defined = finite(now.force) && std::ranges::all_of(now.further, finite);
+    if (!e.clock.ticks())  // else it reads at its instants
+      for (const Signal& signal : e.signals)
+        if (const Formula* f = signal.function.formula.get())
+          defined &= finite(formula_at(*f, t).f);
+    if (!defined) return static_cast<int>(k);
+  }
+  return -1;
 }
 
 void ElementSet::connect(const std::vector<const MarkerState*>& markers) {

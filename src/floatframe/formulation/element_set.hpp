@@ -159,6 +159,9 @@ class ElementSet {
   void find_links(const PortsAt& ports_at) noexcept {
     if (!links_.empty()) evaluate_linked(ports_at);
   }
+  /// The first controller at the last evaluation, at time t, that has no value or reads a function
+  /// of time without one: no force shows it if nothing reads the controller now. -1: none.
+  int undefined(double t) const noexcept;
   /// Since the beginning of the last step.
   const ThrownByElement& thrown() const noexcept { return thrown_; }
 

@@ -87,6 +87,8 @@ class Formulation {
     find_links();
     return floatframe::branch_side(ports(element));
   }
+  /// See ElementSet.
+  int undefined_element(double t) const noexcept { return element_set_.undefined(t); }
   /// By the function of an element, since the beginning of the last step.
   const ThrownByElement& thrown() const noexcept { return element_set_.thrown(); }
   /// While held, efforts stay those of the last evaluation: for derivatives without theirs.

@@ -74,6 +74,7 @@ class AugmentedLagrangian final : public Integrator {
     if (!report.accepted() && report.iterations > 0 && f_.constraints() > 0 && !has_thrown())
       retry_step(state, k, report);
     if (has_states()) end_states(report);
+    check_values(report, state.t + h);
     if (!report.accepted() && has_thrown()) report.status = AttemptStatus::law_failed;
     if (!report.accepted()) {
       reuse_.valid_at = std::numeric_limits<double>::quiet_NaN();
@@ -124,12 +125,8 @@ class AugmentedLagrangian final : public Integrator {
     f_.element_states().give(s.z);
     f_.element_states().follow(scheme.weight, z_hat_);
   }
-  /// Those of the last iterate, which is not evaluated further.
-  void end_states(StepAttempt& report) noexcept {
-    if (report.accepted()) f_.solve_element_states();
-    check_states(report);
-    f_.element_states().stop();
-  }
+  void end_states(StepAttempt& report) noexcept;
+  void check_values(StepAttempt& report, double end) const noexcept;
   bool check_states(StepAttempt& report) const noexcept {
     if (f_.element_states().unsolved() < 0) return true;
     report.status = AttemptStatus::states_not_solved;

@@ -1,8 +1,25 @@
 #pragma once
-// The projections (i) and (j) at the end of a step of AugmentedLagrangian.
+// The end of a step of AugmentedLagrangian: states and values of elements at the last iterate, and
+// the projections (i) and (j).
 #include "floatframe/integrator/augmented_lagrangian.hpp"
 
 namespace floatframe {
+
+/// Those of the last iterate, which is not evaluated further.
+template <EquationsOfMotion F>
+inline void AugmentedLagrangian<F>::end_states(StepAttempt& report) noexcept {
+  if (report.accepted()) f_.solve_element_states();
+  check_states(report);
+  f_.element_states().stop();
+}
+
+/// Of elements that no force depends on at present.
+template <EquationsOfMotion F>
+inline void AugmentedLagrangian<F>::check_values(StepAttempt& report, double end) const noexcept {
+  if (!report.accepted()) return;
+  report.element = f_.undefined_element(end);
+  if (report.element >= 0) report.status = AttemptStatus::not_finite;
+}
 
 /// Projects velocities and accelerations onto the constraints, orthogonally in W = M + 0.01 s K
 /// (the Newton tangent would feed energy into stiff modes). False if W is singular.

@@ -67,7 +67,7 @@ struct StepAttempt {
   double position_violation = 0.0, velocity_violation = 0.0;
   int coordinate = -1;     ///< with the vanishing pivot or the largest residual
   int constraint = -1;     ///< with the largest violation, if the constraints did not converge
-  int element = -1;        ///< whose states are not solved
+  int element = -1;        ///< whose states are not solved, or that has no value
   double increment = 0.0;  ///< the last Newton increment, largest coordinate [m, rad, amplitudes]
   double size = 0.0;       ///< of the step [s]
   /// Sum of the logarithms of the pivots of the projection metric with the full penalty: it drops

@@ -7,6 +7,7 @@
 #include <array>
 #include <numbers>
 #include <span>
+#include <string>
 
 #include "floatframe/description/rules.hpp"
 #include "floatframe/model/element_outputs.hpp"
@@ -19,7 +20,7 @@ namespace floatframe {
 struct FollowedOutput {
   bool started = false;
   double time = 0.0;
-  std::array<double, 6> values{};     ///< what the kind needs of it
+  std::array<double, 6> values{};     ///< what the kind needs of it; see also UndefinedSample
   std::vector<FollowedOutput> parts;  ///< of the references of a formula
 };
 
@@ -108,9 +109,12 @@ inline MeasurePorts<double> measure_ports(const SystemMotion& motion, const Outp
 /// Of a body, or with -1 of all [kg].
 double mass_of(const Model& model, int body) noexcept;
 
-/// The value of a formula at a sample; `parts` is the memory of its references.
+/// The value of the formula of an output at a sample; `last` is its memory, which keeps where it
+/// first had none.
 double sampled_formula(const SystemMotion& motion, const OutputFormula& f,
-                       std::vector<FollowedOutput>& parts) noexcept;
+                       FollowedOutput& last) noexcept;
+/// "division by zero in '(1 / x)' at t = 0.2 s", from this memory; empty: it always had a value.
+std::string undefined_sample(const OutputFormula& f, const FollowedOutput& last);
 /// A formula whose crossing of zero is looked for after each step.
 struct Crossing {
   /// In the memory of its output.

@@ -19,12 +19,13 @@ enum class RangeLimit {
   balance,       ///< the energy balance does not close
   branch,        ///< the mechanism passed a singular configuration, where it may branch
   half_turn,     ///< the rotation measured by a force element exceeded half a turn
-  contact        ///< a contact lasts for too few steps
+  contact,       ///< a contact lasts for too few steps
+  formula        ///< the formula of an output has no value
 };
 /// In this order.
-inline constexpr std::array<const char*, 12> range_limit_names{
-    "displacement", "rotation", "spin",    "turn",   "phase",     "sine",
-    "table",        "damping",  "balance", "branch", "half_turn", "contact"};
+inline constexpr std::array<const char*, 13> range_limit_names{
+    "displacement", "rotation", "spin",   "turn",      "phase",   "sine",   "table",
+    "damping",      "balance",  "branch", "half_turn", "contact", "formula"};
 
 struct RangeWarning {
   RangeLimit limit = RangeLimit::displacement;

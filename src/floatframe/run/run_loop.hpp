@@ -248,7 +248,12 @@ class Run {
     s.energy.elastic_end = e.elastic;
     s.energy.total_end = e.total();
     if (joints_) result_.state = std::make_shared<SystemState>(steps_.system_state(*joints_));
-    if (!watch_) return;
+    if (watch_) finish_watch(s);
+    if (std::string why = steps_.undefined_outputs(); !why.empty())
+      s.warnings.push_back({RangeLimit::formula, std::move(why)});
+  }
+
+  void finish_watch(RunSummary& s) {
     watch_->finish(steps_.state(), steps_.step_options().spectral_radius, steps_.corners(), s);
     const auto unresolved =
         unresolved_forcing(steps_.model(), o_.step, steps_.begin(), o_.duration, steps_.corners());

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "floatframe/formulas/formula_evaluation.hpp"
@@ -58,8 +59,8 @@ std::string overflow_text(Formulation& f, const State& state, double t, double l
       look(force.laws[0](now.length).df, slope("spring", "N/m, N m/rad"));
       look(force.laws[1](now.rate).df, slope("damper", "N s/m, N m s/rad"));
     }
-    if (std::string why = std::isnan(now.force) ? formula_complaint_of(f, k) : ""; !why.empty())
-      return fmt::format("{}{}: {}", undefined_mark, element_name(force), why);
+    if (std::string why = std::isnan(now.force) ? undefined_formula_text(f) : ""; !why.empty())
+      return std::string(undefined_mark) + why;
     look(now.force, [&](const std::string& n) {
       return force.exerts() ? fmt::format("the force of '{}' is {} [N, N m]", force.name, n)
                             : fmt::format("the value of {} is {}", element_name(force), n);
@@ -68,15 +69,23 @@ std::string overflow_text(Formulation& f, const State& state, double t, double l
   return text;
 }
 
-std::string formula_complaint_of(Formulation& f, std::size_t element) {
-  const Element& e = f.model().elements[element];
+std::string undefined_formula_text(Formulation& f) {
+  const Model& model = f.model();
   f.find_links();
-  const Ports ports = f.ports(element);
-  const auto complaint = element_kind(e.type).complaint;
-  std::string why = complaint ? complaint(ports) : std::string();
-  for (const Signal& signal : e.signals)
-    if (signal.function.formula && why.empty()) why = fault_at(*signal.function.formula, ports.t);
-  return why;
+  for (std::size_t k = 0; k < model.elements.size(); ++k) {
+    const Element& e = model.elements[k];
+    const Ports ports = f.ports(k);
+    const bool follows = std::ranges::any_of(e.signals, [&](const Signal& signal) {
+      return signal.link >= 0 && std::isnan(ports.links[signal.link]);
+    });
+    if (follows) continue;
+    const auto complaint = element_kind(e.type).complaint;
+    std::string why = complaint ? complaint(ports) : std::string();
+    for (const Signal& signal : e.signals)
+      if (signal.function.formula && why.empty()) why = fault_at(*signal.function.formula, ports.t);
+    if (!why.empty()) return element_name(e) + ": " + why;
+  }
+  return {};
 }
 
 std::string overflow_sentence(const std::string& text, double t, double limit) {

@@ -20,8 +20,9 @@ inline constexpr double largest_beside_one = 1e15;
 /// all formulations. Moves `f`.
 std::string overflow_text(Formulation& f, const State& state, double t, double limit);
 
-/// Why the formula of an element, or of one of its signals, has no value now; empty if it has one.
-std::string formula_complaint_of(Formulation& f, std::size_t element);
+/// The first element whose formula, or that of one of its signals, has no value now, and why;
+/// those that only follow from another one are not meant. Empty: there is none.
+std::string undefined_formula_text(Formulation& f);
 
 /// "the numbers of the model overflow: ..."
 std::string overflow_sentence(const std::string& text, double t, double limit);

@@ -52,8 +52,8 @@ class CornerSteps {
   }
 
   /// One step of size h. `smooth(size)` makes a step in which no function has a corner; `behind()`
-  /// is called at a corner, before accelerations are solved for again. If the step is not accepted,
-  /// the state is that of the last corner that was passed.
+  /// is called at a corner, before accelerations are solved for again; false: the step ends there.
+  /// If the step is not accepted, the state is that of the last corner that was passed.
   template <class Smooth, class Behind>
   StepAttempt step(State& state, double h, long& passed, const Smooth& smooth,
                    const Behind& behind) noexcept {
@@ -64,7 +64,10 @@ class CornerSteps {
     for (TimeCorner c; (c = next(listed, state.t, end)).from < endless;) {
       const double left = std::min(before(c.from, state.t, h), end);
       if (!reach(state, left, h, smooth, total)) return total;
-      pass(state, c, h, behind);
+      if (!pass(state, c, h, behind)) {
+        total.status = AttemptStatus::not_finite;
+        return total;
+      }
       while (listed != corners_.end() && !(listed->to > c.to)) ++listed;
       ++passed;
     }
@@ -135,7 +138,7 @@ class CornerSteps {
   }
 
   template <class Behind>
-  void pass(State& state, const TimeCorner& c, double h, const Behind& behind) noexcept {
+  bool pass(State& state, const TimeCorner& c, double h, const Behind& behind) noexcept {
     assert(c.from <= c.to);
     if (watch_.look) {
       kinematics_at(f_, state);
@@ -145,9 +148,10 @@ class CornerSteps {
     }
     if (c.to > c.from) move_(state, c.to - state.t, h);
     state.t = std::max(state.t, c.to);
-    behind();
+    if (!behind()) return false;
     integrator_.restart(state, h);
     watch_(state, integrator_.reactions());
+    return true;
   }
 
   Formulation& f_;

@@ -36,7 +36,7 @@ void Stepper::watch_formulas() {
 
 double Stepper::value_of(const WatchedFormula& w) noexcept {
   const SystemMotion& motion = present_motion(watched_needs_);
-  return sampled_formula(motion, *w.output->formula, outputs_[w.memory].parts);
+  return sampled_formula(motion, *w.output->formula, outputs_[w.memory]);
 }
 
 /// Values at the present state; true if one of them has crossed zero since the step before.

@@ -33,16 +33,35 @@ std::string Stepper::failure() {
   return text + (lost.empty() ? light_motion_note(f_, state_) : "; " + lost);
 }
 
-/// Of an element whose force is not a number, at the failed iteration: its formula, or that of one
-/// of its signals.
+/// If a formula has no value: at the failed iteration, or at the instant of a sample.
 std::string Stepper::undefined_formula() {
   const int k = largest_force();
-  if (k < 0 || !std::isnan(f_.effort(k).force)) return {};
-  const Element& e = model().elements[k];
-  const std::string why = formula_complaint_of(f_, k);
+  if (undefined_)
+    kinematics_at(f_, state_);
+  else if (last_.element < 0 && (k < 0 || !std::isnan(f_.effort(k).force)))
+    return {};
+  const std::string why = undefined_formula_text(f_);
   if (why.empty()) return {};
-  return fmt::format("step failed at t = {:.6g} s after substeps down to {:.3g} s: {}: {}",
-                     state_.t, smallest(), element_name(e), why);
+  const std::string substeps =
+      undefined_ ? "" : fmt::format(" after substeps down to {:.3g} s", smallest());
+  return fmt::format("step failed at t = {:.6g} s{}: {}", state_.t, substeps, why);
+}
+
+std::string Stepper::undefined_outputs() const {
+  std::string first;
+  int others = 0;
+  const auto look = [&](const Output& output, const FollowedOutput& memory) {
+    if (!output.formula) return;
+    const std::string why = undefined_sample(*output.formula, memory);
+    if (why.empty()) return;
+    if (first.empty())
+      first = fmt::format("output '{}' has no value: {}", output.name, why);
+    else
+      ++others;
+  };
+  for (std::size_t k = 0; k < model().outputs.size(); ++k) look(model().outputs[k], outputs_[k]);
+  if (until_) look(*model().until, outputs_.back());
+  return others == 0 ? first : fmt::format("{} (and {} more)", first, others);
 }
 
 /// From the results of the last iteration.

@@ -174,6 +174,7 @@ bool Stepper::cover(double h) noexcept {
   assert(h > 0.0 && state_.q.size() == f_.configurations());
   asked_ = h;
   ticked_ = -TimeGrid::endless;
+  undefined_ = false;
   take_inputs(h);
   if (has_thrown()) return false;
   const double end = state_.t + h;
@@ -181,17 +182,19 @@ bool Stepper::cover(double h) noexcept {
   count(last_ = part(h, true));
   if (last_.accepted()) {
     sample_elements(h);
+    if (undefined_) return false;
     take_samples();
     ++counters_.steps;
     return true;
   }
   double remaining = divided ? end - state_.t : h, sub = 0.5 * remaining;
   while (remaining > 1e-9 * h) {
-    if (has_thrown() || sub < least_ || !(sub > 0.0)) return false;
+    if (has_thrown() || undefined_ || sub < least_ || !(sub > 0.0)) return false;
     const double now = std::min(sub, remaining);
     count(last_ = part(now, true));
     if (last_.accepted()) {
       sample_elements(h);
+      if (undefined_) return false;
       take_samples();
       remaining -= now;
       ++counters_.substeps;
@@ -218,8 +221,9 @@ StepAttempt Stepper::part(double h, bool may_meet_corner) noexcept {
     return corners_->step(
         state_, h, counters_.corners, [this](double size) { return part(size, false); },
         [this] {
-          take_ticks();
+          if (!take_ticks()) return false;
           hold_branches();
+          return true;
         });
   if (!locator_) return integrator_->attempt(state_, h);
   return locator_->step(state_, h, counters_.edges, counters_.edges_passed);
@@ -254,20 +258,26 @@ void Stepper::sample_elements(double h) noexcept {
     f_.forces();
     watch_(state_, integrator_->reactions());
   }
-  take_ticks();
+  if (!take_ticks()) return;
   hold_branches();
   integrator_->restart_in_course(state_, h);
   watch_(state_, integrator_->reactions());
 }
 
-/// Sampled elements at the present instant.
-void Stepper::take_ticks() noexcept {
-  if (ticks_.empty()) return;
+/// Sampled elements at the present instant. False: one of their values is not a number; steps end
+/// there.
+bool Stepper::take_ticks() noexcept {
+  if (ticks_.empty()) return true;
   take_samples();
   ticked_ = state_.t;
   kinematics_at(f_, state_);
   f_.sample_elements(time_corner_width * grid_.step());
-  state_.z = f_.element_states().values();
+  undefined_ = !f_.element_states().values().allFinite();
+  if (undefined_)
+    last_.status = AttemptStatus::not_finite;
+  else
+    state_.z = f_.element_states().values();
+  return !undefined_;
 }
 
 void Stepper::count(const StepAttempt& r) noexcept {

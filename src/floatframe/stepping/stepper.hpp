@@ -107,6 +107,9 @@ class Stepper {
   /// Time and outputs at the present state; brings the formulation there. Outputs count turns from
   /// one sample to the next.
   void sample(double* row) noexcept;
+  /// Outputs by formulas, and `until`, that had no value at a sample: a sentence about the first
+  /// one, without its full stop; empty: there is none.
+  std::string undefined_outputs() const;
   /// At the present state; brings the formulation there.
   Energies energies() noexcept;
   /// The cause of the last failed step, as a sentence. Moves the formulation.
@@ -164,7 +167,7 @@ class Stepper {
   void hold_branches() noexcept;
   void take_inputs(double h) noexcept;
   void sample_elements(double h) noexcept;
-  void take_ticks() noexcept;
+  bool take_ticks() noexcept;
   /// With what readers need, at the present state.
   const SystemMotion& present_motion(MotionNeeds needs) noexcept;
   void take_samples() noexcept;
@@ -191,6 +194,7 @@ class Stepper {
   double least_ = 0.0, asked_ = 0.0;    ///< smallest substep and size of the last step [s]
   std::vector<SampleTicks> ticks_;      ///< of sampled elements
   double ticked_ = -TimeGrid::endless;  ///< the last of them in this step [s]
+  bool undefined_ = false;              ///< one of them has taken what is not a number
   StepAttempt last_;
   StepCounters counters_;
   std::vector<FollowedOutput> outputs_;
