@@ -207,7 +207,7 @@ template <class S>
 SignalValue<S> PortsOf<S>::given_signal(const Signal& signal) const noexcept {
   const PiecewisePolynomial::Value value = evaluate(signal.function, t);
   SignalValue<S> out{value.f, value.df, value.ddf};
-  if (signal.input >= 0) out.f += inputs[signal.input];
+  if (signal.input >= 0) out.f += input(signal.input);
   if (signal.link >= 0) out.f += links[signal.link];
   return out;
 }

@@ -42,12 +42,13 @@ TangentFinder::TangentFinder(const Model& model, const Element& element)
     if (signal.link >= 0) own_links_.push_back(signal.link);
 }
 
-void TangentFinder::evaluate(const Ports& in) noexcept {
+void TangentFinder::evaluate(const Ports& in, const double* input_changes) noexcept {
   efforts_.clear();
   if (!in.element.acts) return;
   element_kind(in.element.type)
       .dual({in.model, in.element, markers_.data(), in.origin, in.t, in.reference_angle, in.inputs,
-             in.branch, states_.data(), in.state_weight, links_.data(), in.angles, in.kept},
+             in.branch, states_.data(), in.state_weight, links_.data(), in.angles, in.kept,
+             input_changes},
             efforts_);
 }
 
@@ -72,6 +73,19 @@ const EffortsOf<Dual>& TangentFinder::along_inner(const Ports& in, int first) no
     if (ns + i >= first && ns + i < last) link.d[ns + i - first] = 1.0;
   }
   evaluate(in);
+  return efforts_;
+}
+
+const EffortsOf<Dual>& TangentFinder::along_signals(const Ports& in, const VecX& inputs,
+                                                    const VecX& links) noexcept {
+  assert(std::ssize(in.inputs) == inputs.size() && std::ssize(links_) == links.size());
+  for (int i = 0; i < std::ssize(motions_); ++i) motions_[i] = constant(in.marker(i));
+  std::copy(in.states, in.states + states_.size(), states_.begin());
+  for (const int link : own_links_) {
+    links_[link] = in.links[link];
+    links_[link].d[0] = links[link];
+  }
+  evaluate(in, inputs.data());
   return efforts_;
 }
 
