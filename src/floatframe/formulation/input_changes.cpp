@@ -11,8 +11,8 @@ InputChanges::InputChanges(const Model& model)
   for (std::size_t k = 0; k < model.elements.size(); ++k) {
     const Element& e = model.elements[k];
     const bool enters =
-        std::ranges::any_of(e.signals,
-                            [](const Signal& s) { return s.input >= 0 || s.link >= 0; }) ||
+        std::ranges::any_of(
+            e.signals, [](const Signal& s) { return s.input >= 0 || s.link >= 0 || s.local; }) ||
         std::ranges::any_of(e.operands, [](const FormulaOperand& x) {
           return x.kind == FormulaOperand::Kind::input;
         });

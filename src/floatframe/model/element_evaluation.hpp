@@ -205,6 +205,8 @@ class TangentFinder {
   TangentFinder(const Model& model, const Element& element);
   /// With the ports of this element.
   const EffortTangent& find(const Ports& in) noexcept;
+  /// All but K and C.
+  const EffortTangent& find_results(const Ports& in) noexcept;
   /// Only `of_inner` and `slopes`.
   const EffortTangent& find_inner(const Ports& in) noexcept;
   /// With respect to the motion and rates of a marker: directions (dr, dpi, v, w).
@@ -216,6 +218,8 @@ class TangentFinder {
                                        const VecX& links) noexcept;
 
  private:
+  void take_ports(const Ports& in) noexcept;
+  void find_along_markers(const Ports& in, bool of_wrenches) noexcept;
   void evaluate(const Ports& in, const double* input_changes = nullptr) noexcept;
   const Dual::Directions& wrench(Eigen::Index row) const noexcept;
   const Dual::Directions& result(Eigen::Index row) const noexcept;

@@ -7,6 +7,7 @@
 #include "floatframe/formulas/formula_evaluation.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/local_formula.hpp"
 
 namespace floatframe {
 
@@ -59,7 +60,7 @@ std::string overflow_text(Formulation& f, const State& state, double t, double l
       look(force.laws[1](now.rate).df, slope("damper", "N s/m, N m s/rad"));
     }
     if (std::string why = std::isnan(now.force) ? formula_complaint_of(f, k) : ""; !why.empty())
-      return fmt::format("{}{}: {}", undefined_mark, element_name(force), why);
+      return fmt::format("{}{}", undefined_mark, why);
     look(now.force, [&](const std::string& n) {
       return force.exerts() ? fmt::format("the force of '{}' is {} [N, N m]", force.name, n)
                             : fmt::format("the value of {} is {}", element_name(force), n);
@@ -73,10 +74,14 @@ std::string formula_complaint_of(Formulation& f, std::size_t element) {
   f.find_links();
   const Ports ports = f.ports(element);
   const auto complaint = element_kind(e.type).complaint;
-  std::string why = complaint ? complaint(ports) : std::string();
-  for (const Signal& signal : e.signals)
+  std::string owner = element_name(e), why = complaint ? complaint(ports) : std::string();
+  for (const Signal& signal : e.signals) {
     if (signal.function.formula && why.empty()) why = fault_at(*signal.function.formula, ports.t);
-  return why;
+    if (!signal.local || !why.empty()) continue;
+    why = local_formula_complaint(ports, f.effort(element).length, f.effort(element).rate);
+    owner = "formula '" + signal.local->name + "'";
+  }
+  return why.empty() ? why : owner + ": " + why;
 }
 
 std::string overflow_sentence(const std::string& text, double t, double limit) {

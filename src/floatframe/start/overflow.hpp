@@ -20,7 +20,8 @@ inline constexpr double largest_beside_one = 1e15;
 /// all formulations. Moves `f`.
 std::string overflow_text(Formulation& f, const State& state, double t, double limit);
 
-/// Why the formula of an element, or of one of its signals, has no value now; empty if it has one.
+/// Why the formula of an element, or of one of its signals, has no value now, behind its name;
+/// empty if it has one.
 std::string formula_complaint_of(Formulation& f, std::size_t element);
 
 /// "the numbers of the model overflow: ..."

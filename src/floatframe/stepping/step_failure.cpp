@@ -38,11 +38,10 @@ std::string Stepper::failure() {
 std::string Stepper::undefined_formula() {
   const int k = largest_force();
   if (k < 0 || !std::isnan(f_.effort(k).force)) return {};
-  const Element& e = model().elements[k];
   const std::string why = formula_complaint_of(f_, k);
   if (why.empty()) return {};
-  return fmt::format("step failed at t = {:.6g} s after substeps down to {:.3g} s: {}: {}",
-                     state_.t, smallest(), element_name(e), why);
+  return fmt::format("step failed at t = {:.6g} s after substeps down to {:.3g} s: {}", state_.t,
+                     smallest(), why);
 }
 
 /// From the results of the last iteration.
