@@ -154,8 +154,15 @@ def chain(links, outputs):
             "simulation: {step: 0.001, duration: 1}\n")
 
 
+def driven_chain(force):
+    """Of four links, with this force on each of its joints."""
+    forces = "".join(f"  f{k}: {force.format(k=k, next=(k + 1) % 4)}\n" for k in range(4))
+    return chain(4, "  q: {joint_position: j0}\n").replace("outputs:", "forces:\n" + forces + "outputs:")
+
+
 def cost_of_reactions(program, with_outputs, kinds):
-    """Of the steps of a redundant mechanism with a reaction in every row, by those without: a run less a shorter one."""
+    """Of the steps of a mechanism with the second of two kinds of entries, reactions in every row, by those with the first: a
+    run less a shorter one."""
     steps = {}
     with tempfile.TemporaryDirectory(prefix="floatframe-count-") as folder:
         model = pathlib.Path(folder) / "row.yaml"
@@ -193,6 +200,11 @@ def instruction_figures(program):
         program, six_legs, ("  c: {position: crank}\n", "  c: {joint_force: crank}\n"))
     figures["steps with reactions of a chain of 36, of those without"] = cost_of_reactions(
         program, lambda outputs: chain(36, outputs), ("  c: {position: b0}\n", "  c: {joint_force: j0}\n"))
+    spring = "{{type: joint_spring, joint: j{k}, spring: 40, damper: 3}}"
+    actuator = "{{type: joint_spring, joint: j{k}, actuator: {{formula: '-40 * angle(j{k}) - 3 * rate(j{k})%s'}}}}"
+    for name, more in (("", ""), (" of other joints", " + 0 * angle(j{next})")):
+        figures[f"steps with actuators by formulas{name}, of those with springs"] = cost_of_reactions(
+            program, driven_chain, (spring, actuator % more))
     for options in LAWS:
         by_formula, in_cpp = (collected(program, [model, *options])[0] for model in ("formulas", "laws"))
         figures[f"steps with laws by formulas, of those with the same laws in C++, {options[1]}"] = round(by_formula / in_cpp, 3)

@@ -9,11 +9,13 @@
 // Step time: no heap, noexcept.
 #include <algorithm>
 #include <cassert>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "floatframe/formulation/element_states.hpp"
+#include "floatframe/formulation/input_changes.hpp"
 #include "floatframe/formulation/signal_ring.hpp"
 #include "floatframe/model/axis_measure.hpp"
 #include "floatframe/model/element_evaluation.hpp"
@@ -41,6 +43,11 @@ class ElementSet {
     std::copy(values.begin(), values.end(), inputs_.begin());
   }
   std::span<const double> inputs() const noexcept { return inputs_; }
+  /// Inputs moved by these numbers, linearly (input_changes.hpp). Load time only: allocates.
+  void change_inputs(const VecX& by) {
+    if (!changes_) changes_ = std::make_unique<InputChanges>(model_);
+    changes_->set(by);
+  }
 
   /// Angles at the last evaluation, of the coordinates whose turns are counted [rad].
   std::span<const double> angles() const noexcept { return angles_; }
@@ -118,6 +125,7 @@ class ElementSet {
       for (const std::size_t k : acting_) evaluate_one(k, ports(k, p_WO, t));
     else
       evaluate_linked([&](std::size_t k) { return ports(k, p_WO, t); });
+    if (changes_) changes_->add([&](std::size_t k) { return ports(k, p_WO, t); }, states_, links_);
     z_.take_rates(states_);
   }
   /// Of the elements with states only, with `ports_at(k)` of element k; of all, if there are
@@ -279,6 +287,7 @@ class ElementSet {
   std::vector<double> links_;  ///< values of model.links, times their factors
   std::vector<std::vector<std::size_t>> links_from_;  ///< each element
   ElementStates z_;
+  std::unique_ptr<InputChanges> changes_;  ///< null: none
   bool held_ = false;
   ThrownByElement thrown_;
   std::vector<std::vector<const MarkerState*>> markers_;  ///< of each element

@@ -43,6 +43,8 @@ class Formulation {
   /// Values of `model().inputs`, constant until set again; at first their initial values.
   void set_inputs(std::span<const double> values) noexcept { element_set_.set_inputs(values); }
   std::span<const double> inputs() const noexcept { return element_set_.inputs(); }
+  /// Moves them by these numbers, with efforts that are linear in them. Load time only: allocates.
+  void change_inputs(const VecX& by) { element_set_.change_inputs(by); }
   /// Angles of the joint springs at the last evaluation, of those about an axis: they determine
   /// the turn of the next angle, so they are a part of the state that q does not contain.
   std::span<const double> spring_angles() const noexcept { return element_set_.angles(); }

@@ -52,7 +52,9 @@ void SignalTangent::find_system(const Formulation& f) noexcept {
   const double weight = f.element_states().weight();
   transposed_.setIdentity();
   for (Member& m : members_) {
-    m.tangent = &m.finder.find(f.ports(m.element));
+    const bool moves = m.states > 0 || !m.results.empty();  // what (1) depends on
+    m.tangent = moves ? &m.finder.find_results(f.ports(m.element))
+                      : &m.finder.find_inner(f.ports(m.element));
     const MatX& slopes = m.tangent->slopes;
     for (int z = 0; z < m.states && std::isfinite(weight); ++z) {
       transposed_(m.first + z, m.first + z) = weight;
@@ -86,6 +88,10 @@ void SignalTangent::add_gains(Formulation& f, double damping, double s, const Ve
                               VecX& out) noexcept {
   const bool follow = f.element_states().follow();
   for (Member& m : members_) {
+    bool enters = false;
+    for (int z = 0; z < m.states && follow; ++z) enters = enters || a[m.first + z] != 0.0;
+    for (const int l : m.results) enters = enters || a[first_link_ + l] != 0.0;
+    if (!enters) continue;
     const MatX &motion = m.tangent->motion, &rates = m.tangent->rates;
     for (Eigen::Index i = 0; i < std::ssize(m.wrenches); ++i) {
       Vec6 sum = Vec6::Zero();

@@ -27,7 +27,8 @@ Model with_lifts(const Model& model, std::vector<Output> outputs) {
 }  // namespace
 
 ExcitedSystem::ExcitedSystem(InitialisedModel& started, std::vector<Output> outputs, double step)
-    : model_(with_lifts(started.model(), std::move(outputs))),
+    : parts_(std::move(outputs)),
+      model_(with_lifts(started.model(), parts_.parts())),
       own_(make_formulation(started.formulation().coordinates(), model_, started.inertia())),
       f_(*own_),
       state_(started.state()),
@@ -66,9 +67,7 @@ double ExcitedSystem::value(const LinearInput& input) const {
 void ExcitedSystem::move(const LinearInput& input, const Vec3& by) {
   const auto k = static_cast<std::size_t>(input.index);
   if (input.kind == LinearInput::Kind::signal) {
-    std::vector<double> moved = inputs_;
-    moved[k] += by[0];
-    f_.set_inputs(moved);
+    change_inputs(by[0] * VecX::Unit(std::ssize(inputs_), k));
   } else if (input.kind == LinearInput::Kind::motion) {
     const PiecewisePolynomial::Value v =
         evaluate(original_.elements[k].signals[0].function, state_.t);
@@ -78,6 +77,11 @@ void ExcitedSystem::move(const LinearInput& input, const Vec3& by) {
     for (const int wheel : input.wheels)
       lift(model_.elements[static_cast<std::size_t>(wheel)], parabola(state_.t, by));
   }
+}
+
+void ExcitedSystem::change_inputs(const VecX& by) {
+  f_.change_inputs(by);
+  if (reactions_) reactions_->formulation().change_inputs(by);
 }
 
 VecX ExcitedSystem::balance() {
@@ -143,6 +147,17 @@ VecX ExcitedSystem::outputs(const VecX& x, const VecX& dv, const VecX& da) {
     y[static_cast<Eigen::Index>(k)] = output_value(motion, model_.outputs[k], last);
   }
   return y;
+}
+
+VecX ExcitedSystem::output_values(const VecX& parts) const {
+  return parts_.values(parts, inputs_, state_.t);
+}
+
+VecX ExcitedSystem::output_derivatives(const VecX& parts, const VecX& dparts,
+                                       const LinearInput* input) const {
+  VecX dinputs = VecX::Zero(std::ssize(inputs_));
+  if (input && input->kind == LinearInput::Kind::signal) dinputs[input->index] = 1.0;
+  return parts_.derivatives(parts, inputs_, state_.t, dparts, dinputs);
 }
 
 }  // namespace floatframe

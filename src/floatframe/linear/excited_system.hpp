@@ -2,12 +2,15 @@
 // A model whose inputs can be varied about their values: external signals, laws of prescribed
 // motions, roads that are lifted under each wheel, each with its first and second derivative at the
 // present time. It works on a copy of the model, so that the original is not modified, and has
-// outputs with reactions that satisfy the equations of motion. Load time only.
+// outputs with reactions that satisfy the equations of motion. In a signal everything but the
+// outputs is exactly linear (formulation/input_changes.hpp), so that its step may be large;
+// formulas of outputs are differentiated exactly in their parts (output_parts.hpp). Load time only.
 #include <optional>
 #include <vector>
 
 #include "floatframe/linear/linear_ports.hpp"
 #include "floatframe/linear/linear_reduction.hpp"
+#include "floatframe/linear/output_parts.hpp"
 #include "floatframe/model/output_kind.hpp"
 #include "floatframe/reactions/reaction_solver.hpp"
 #include "floatframe/start/start_up.hpp"
@@ -34,13 +37,20 @@ class ExcitedSystem {
   void derivatives(const LinearInput& input, double step, Eigen::Index column, InputMotions& out);
   /// For a signal: a step that changes forces by about 1e-4 of the weight of a body.
   double step_of(const LinearInput& input);
-  /// Outputs at increments x, dv and da of the state; x of all unknowns, the others may have more
-  /// rows than coordinates.
+  /// Parts of the outputs at increments x, dv and da of the state; x of all unknowns, the others
+  /// may have more rows than coordinates.
   VecX outputs(const VecX& x, const VecX& dv, const VecX& da);
+  /// The outputs from their parts at the state, and their derivative with that of the parts along a
+  /// unit of an input; null: at constant inputs.
+  VecX output_values(const VecX& parts) const;
+  VecX output_derivatives(const VecX& parts, const VecX& dparts, const LinearInput* input) const;
 
  private:
   VecX balance();  ///< residual, Phi and its derivatives
 
+  void change_inputs(const VecX& by);
+
+  OutputParts parts_;
   Model model_;
   std::unique_ptr<Formulation> own_;
   Formulation& f_;  ///< *own_

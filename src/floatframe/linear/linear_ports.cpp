@@ -64,16 +64,18 @@ void find_output_columns(ExcitedSystem& excited, const std::vector<double>& inpu
   Formulation& f = excited.formulation();
   const VecX steps = unknown_steps(f.model(), possible_masses(f, excited.state()), excited.state());
   linear.C.resize(ny, nz);
+  const VecX still = VecX::Zero(excited.unknowns());
+  const VecX parts = excited.outputs(still, still, still);
   for (Eigen::Index z = 0; z < nz; ++z) {
     tell_progress("outputs", 1.0 * z / nz);
     VecX x(excited.unknowns());
     x << system.x_of.col(z), system.elements_of.col(z);
     const VecX v = system.v_of.col(z);
     const double h = std::min({step_along(x, steps), step_along(v, 10.0 * steps), 1e3});
-    linear.C.col(z) = output_column(excited, h, x, v, VecX(system.a_of.col(z)));
+    const VecX dparts = output_column(excited, h, x, v, VecX(system.a_of.col(z)));
+    linear.C.col(z) = excited.output_derivatives(parts, dparts, nullptr);
   }
   for (MatX& D : linear.D) D = MatX::Zero(ny, nu);
-  const VecX still = VecX::Zero(excited.unknowns());
   for (Eigen::Index j = 0; j < nu; ++j) {
     const LinearInput& input = linear.inputs[static_cast<std::size_t>(j)];
     for (int k = 0; k <= input.order(); ++k) {
@@ -81,10 +83,11 @@ void find_output_columns(ExcitedSystem& excited, const std::vector<double>& inpu
       const VecX x = k == 0 ? VecX(moved.x.col(j)) : still;
       const VecX v = k < 2 ? VecX(moved.v[k].col(j)) : still;
       const VecX a = moved.a[k].col(j);
-      linear.D[k].col(j) = precise_differences(VecX::Constant(1, h), 0, [&](const VecX& s) {
-                             excited.move(input, s[0] * Vec3::Unit(k));
-                             return excited.outputs(s[0] * x, s[0] * v, s[0] * a);
-                           }).columns;
+      const VecX dparts = precise_differences(VecX::Constant(1, h), 0, [&](const VecX& s) {
+                            excited.move(input, s[0] * Vec3::Unit(k));
+                            return excited.outputs(s[0] * x, s[0] * v, s[0] * a);
+                          }).columns;
+      linear.D[k].col(j) = excited.output_derivatives(parts, dparts, k == 0 ? &input : nullptr);
     }
     excited.move(input, Vec3::Zero());
   }
@@ -126,11 +129,13 @@ LinearModel linear_model_of(const Model& model, const LinearPorts& ports,
   linear.system = linear_system_at(f, excited.state(), &motions, &moved);
   linear.time = excited.state().t;
   const VecX still = VecX::Zero(n);
-  linear.output_values = excited.outputs(still, still, still);
+  linear.output_values = excited.output_values(excited.outputs(still, still, still));
   for (int k = 0; k < 3; ++k) linear.B[k] = moved.B[k];
   find_output_columns(excited, steps, moved, linear);
   if (!unsettled.empty()) linear.system.notes.push_back(unsettled);
-  for (const std::string& name : excited.open_outputs())
+  std::vector<std::string> open = excited.open_outputs();  // of a formula once for each part
+  open.erase(std::unique(open.begin(), open.end()), open.end());
+  for (const std::string& name : open)
     linear.system.notes.push_back(
         fmt::format("output {} is not unique, since constraints are redundant: of the reactions "
                     "that are possible those of least norm are given",

@@ -298,8 +298,12 @@ class ElementConnection final : public FormulaConnection {
 ElementDescription ModelBuilder::with_formulas_apart(const ElementDescription& e,
                                                      ElementList list) {
   ElementDescription out = e;
-  const auto apart = [&](SignalDescription& signal, const std::string& key) {
+  const auto apart = [&](SignalDescription& signal, const ElementKey& of, const std::string& key) {
     if (!signal.formula || signal.formula->is_of_time()) return;
+    if (const SharedFormula local = as_local(e, of, *signal.formula)) {
+      signal.formula = local;
+      return;
+    }
     const std::string path = std::string(element_list_name(list)) + "." + e.name + "." + key;
     const std::string name = e.name + "/" + key;  // no name of the user has a slash
     formulas.push_back({{name, FormulaValue{signal.formula}, e.origin}, path + ".formula"});
@@ -312,10 +316,10 @@ ElementDescription ModelBuilder::with_formulas_apart(const ElementDescription& e
     auto value = key_value(e, key);
     if (!value) continue;
     if (auto* signal = std::get_if<SignalDescription>(&*value)) {
-      apart(*signal, key.name);
+      apart(*signal, key, key.name);
     } else if (auto* signals = std::get_if<std::vector<SignalDescription>>(&*value)) {
       for (std::size_t k = 0; k < signals->size(); ++k)
-        apart((*signals)[k], key.name + ("[" + std::to_string(k + 1) + "]"));
+        apart((*signals)[k], key, key.name + ("[" + std::to_string(k + 1) + "]"));
     } else {
       continue;
     }

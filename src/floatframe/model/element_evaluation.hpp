@@ -133,7 +133,7 @@ struct PortsOf {
   const Vec3& origin;                 ///< reference point of the markers' positions
   double t;                           ///< [s]
   double reference_angle = 0.0;       ///< selects the turn of a joint angle [rad]
-  std::span<const double> inputs;     ///< values of model.inputs, constant in tangents
+  std::span<const double> inputs;     ///< values of model.inputs
   std::int64_t branch = free_branch;  ///< the held branch
   const S* states = nullptr;          ///< z, and behind them the kept numbers
   /// w of (1); infinite: z is constant.
@@ -142,7 +142,15 @@ struct PortsOf {
   const double* angles =
       nullptr;                   ///< the last ones of its coordinates whose turns are counted [rad]
   const double* kept = nullptr;  ///< the kept numbers
+  /// Of dual numbers: what the first direction is of each input; null: inputs are constant.
+  const double* input_changes = nullptr;
 
+  S input(std::size_t i) const noexcept {
+    S value = inputs[i];
+    if constexpr (!std::is_same_v<S, double>)
+      if (input_changes) value.d[0] = input_changes[i];
+    return value;
+  }
   const S& state(std::size_t i) const noexcept { return states[i]; }
   /// dz/dp = zdot_p times this, of a state with the slope zdot_z that no other state enters.
   double followed(double slope) const noexcept { return 1.0 / (state_weight - slope); }
@@ -197,15 +205,22 @@ class TangentFinder {
   TangentFinder(const Model& model, const Element& element);
   /// With the ports of this element.
   const EffortTangent& find(const Ports& in) noexcept;
+  /// All but K and C.
+  const EffortTangent& find_results(const Ports& in) noexcept;
   /// Only `of_inner` and `slopes`.
   const EffortTangent& find_inner(const Ports& in) noexcept;
   /// With respect to the motion and rates of a marker: directions (dr, dpi, v, w).
   const EffortsOf<Dual>& along_marker(const Ports& in, int marker) noexcept;
   /// To the inner variables from `first` on.
   const EffortsOf<Dual>& along_inner(const Ports& in, int first) noexcept;
+  /// Along changes of model.inputs and of model.links: in the first direction.
+  const EffortsOf<Dual>& along_signals(const Ports& in, const VecX& inputs,
+                                       const VecX& links) noexcept;
 
  private:
-  void evaluate(const Ports& in) noexcept;
+  void take_ports(const Ports& in) noexcept;
+  void find_along_markers(const Ports& in, bool of_wrenches) noexcept;
+  void evaluate(const Ports& in, const double* input_changes = nullptr) noexcept;
   const Dual::Directions& wrench(Eigen::Index row) const noexcept;
   const Dual::Directions& result(Eigen::Index row) const noexcept;
 

@@ -65,6 +65,8 @@ struct ElementExample {
   SignalDescription signal(ExampleNumbers& numbers);
   /// The same with a result of another element.
   SignalDescription linked_signal(ExampleNumbers& numbers);
+  /// The same with a formula of the measure of the element, its rate, the input and the time.
+  SignalDescription local_signal(ExampleNumbers& numbers);
 
  private:
   void link_signals();
@@ -133,9 +135,11 @@ struct ElementKind {
   bool (*ends_at_half_turn)(const Element& element) noexcept = nullptr;
   bool along_line = false;  ///< acts along the line between its ends, which is undefined if they
                             ///< coincide, unless it has a joint
-  bool bears = false;       ///< `is_bearing`
-  bool contact = false;     ///< with a restitution at the speed of a touch, which is its first kept
-                            ///< number, and the key `least_speed`
+  /// Its actuator may be a formula of its own measure (local_formula.hpp).
+  bool local_actuator = false;
+  bool bears = false;    ///< `is_bearing`
+  bool contact = false;  ///< with a restitution at the speed of a touch, which is its first kept
+                         ///< number, and the key `least_speed`
   /// `lifted_by`: the last signal, which belongs to no key, lifts it.
   const char* lifted = nullptr;
   /// Why its force is not a number there; for messages.
@@ -263,12 +267,12 @@ LawValue<S> law_of(const PiecewisePolynomial& law, std::size_t segment, const S&
 /// The law 0 of an element, of a spring, and the law 1, of a damper, on the held branch.
 template <class S>
 LawValue<S> spring_of(const PortsOf<S>& in, const S& x) noexcept {
-  if (in.branch == free_branch) return law_of(in.element.laws[0], x);
+  if (in.branch == free_branch || in.element.switched) return law_of(in.element.laws[0], x);
   return law_of(in.element.laws[0], SpringBranch{in.branch}.spring(), x);
 }
 template <class S>
 LawValue<S> damper_of(const PortsOf<S>& in, const S& rate) noexcept {
-  if (in.branch == free_branch) return law_of(in.element.laws[1], rate);
+  if (in.branch == free_branch || in.element.switched) return law_of(in.element.laws[1], rate);
   return law_of(in.element.laws[1], SpringBranch{in.branch}.damper(), rate);
 }
 template <class S>

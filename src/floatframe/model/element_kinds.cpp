@@ -7,6 +7,7 @@
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/local_formula.hpp"
 #include "floatframe/model/port_measures.hpp"
 
 namespace floatframe {
@@ -188,6 +189,10 @@ void take_keys(Element& element, const Model& model) {
         for (std::size_t k = 0; k < model.inputs.size(); ++k)
           if (model.inputs[k].name == s->input) signal.input = static_cast<int>(k);
       }
+      if (const SharedFormula& f = signal.function.formula; f && !f->is_of_time()) {
+        signal.local = local_formula(model, element.name + "/" + key.name, f);
+        signal.function.formula = nullptr;
+      }
       signal.differentiated = key.kind == KeyKind::target;
       element.driven = element.driven || signal.given;
       if (s && key.kind == KeyKind::target)
@@ -197,6 +202,8 @@ void take_keys(Element& element, const Model& model) {
       element.signals.push_back(std::move(signal));
     }
   }
+  element.switched = std::ranges::any_of(
+      element.signals, [](const Signal& s) { return s.local && s.local->formula->switches > 0; });
   element.values = value_names(*element.keys);
   element.states = element.kept = 0;
   if (const auto states = element_kind(element.type).states) states(element);
@@ -209,7 +216,7 @@ template <class S>
 SignalValue<S> PortsOf<S>::given_signal(const Signal& signal) const noexcept {
   const PiecewisePolynomial::Value value = evaluate(signal.function, t);
   SignalValue<S> out{value.f, value.df, value.ddf};
-  if (signal.input >= 0) out.f += inputs[signal.input];
+  if (signal.input >= 0) out.f += input(signal.input);
   if (signal.link >= 0) out.f += links[signal.link];
   return out;
 }
@@ -226,6 +233,7 @@ bool has_branches(const Element& element) noexcept {
   if (element_kind(element.type).side == nullptr || !element.acts) return false;
   if (const auto* keys = std::get_if<FormulaValue>(element.keys.get()))
     return keys->formula->switches > 0;
+  if (element.switched) return true;
   return element.laws.empty() ||
          std::any_of(element.laws.begin(), element.laws.end(),
                      [](const PiecewisePolynomial& law) { return !law.edges().empty(); });

@@ -63,12 +63,26 @@ struct Road {
 };
 
 /// A signal port: a function of time plus, with `input` >= 0, the value of that input.
+/// A formula of the measure of its own element and its rate, of inputs and the time, which is a
+/// part of the law of that.
+struct LocalFormula {
+  enum class Operand { time, input, measure, rate };
+  struct Reference {
+    Operand of = Operand::time;
+    int input = -1;
+  };
+  std::string name;  ///< of the element and the key
+  SharedFormula formula;
+  std::vector<Reference> references;
+};
+
 struct Signal {
   TimeFunction function;
   int input = -1;
   int link = -1;  ///< of Model::links: a result of an element is added
   bool given = false;
   bool differentiated = false;  ///< the rate of the function is used as well
+  std::shared_ptr<const LocalFormula> local = nullptr;  ///< is added
 };
 
 /// The scalar force or torque of an element, its measure (length, deflection, angle) and the rate
@@ -162,6 +176,7 @@ struct Element {
   bool rotational = false;    ///< its measure is an angle
   bool driven = false;        ///< by a signal that it follows or that is a force, or by a function
   bool target_jumps = false;  ///< one that it follows may jump
+  bool switched = false;  ///< its branches are those of its local formula, and its laws have none
   std::shared_ptr<const ElementKeys> keys;  ///< what the user has said
   std::shared_ptr<const void> data;         ///< what the kind has computed from it
   /// Its angle is followed over several turns.

@@ -56,7 +56,13 @@ struct ModelBuilder {
   /// What formulas delay, as elements of their own.
   void delays_apart();
   void delays_apart(const Formula& f, const std::string& owner, const InnerFormula& inner);
-  /// The element without the formulas of its signals, which become elements of their own.
+  std::optional<std::pair<std::string, std::string>> measured_by(const FormulaReference& r) const;
+  /// The formula of a key as a part of the law of its element (local_formula.hpp); null: it reads
+  /// more than that may.
+  SharedFormula as_local(const ElementDescription& e, const ElementKey& key,
+                         const Formula& f) const;
+  /// The element without the formulas of its signals, which become elements of their own unless
+  /// they are parts of its law.
   ElementDescription with_formulas_apart(const ElementDescription& e, ElementList list);
   /// What the references of formulas stand for.
   void connect_formulas();

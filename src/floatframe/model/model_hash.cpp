@@ -85,7 +85,7 @@ class ModelHash {
   void add(const CoordinateTerm& t) { all(t.joint, t.coordinate, t.factor); }
   void add(const ForceFunction& f) { add(f.identity()); }
   void add(const Signal& s) {
-    const auto& [function, input, link, given, differentiated] = s;
+    const auto& [function, input, link, given, differentiated, local] = s;
     all(function, input, link, given);
   }
   void add(const SignalLink& l) {
@@ -99,8 +99,8 @@ class ModelHash {
   }
   void add(const Element& e) {
     const auto& [name, type, markers, laws, signals, coordinates, operands, values, road, states,
-                 kept, clock, remembers, start, acts, holds, reads, rotational, driven, jumps, keys,
-                 data] = e;
+                 kept, clock, remembers, start, acts, holds, reads, rotational, driven, jumps,
+                 switched, keys, data] = e;
     all(name, type, markers, laws, signals, operands, road, rotational);
     if (remembers) all(kept);
     const ElementDescription described{name, *keys, {}};

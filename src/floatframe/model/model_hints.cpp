@@ -155,8 +155,12 @@ void hint_at_samples(const Model& model, HintList& out) {
 
 void hint_at_switches(const Model& model, HintList& out) {
   for (const Element& e : model.elements) {
-    if (std::holds_alternative<FormulaValue>(*e.keys) && has_branches(e))
-      out.add("formula", e.name,
+    std::vector<std::string> names;
+    if (std::holds_alternative<FormulaValue>(*e.keys) && has_branches(e)) names.push_back(e.name);
+    for (const Signal& s : e.signals)
+      if (s.local && s.local->formula->switches > 0) names.push_back(s.local->name);
+    for (const std::string& name : names)
+      out.add("formula", name,
               "has corners or jumps (comparisons, clip, min, max, abs, sign) that steps cross; "
               "locate_edges: true divides steps there");
   }

@@ -8,21 +8,25 @@ namespace floatframe {
 
 namespace {
 
-MarkerMotion<Dual> constant(const MarkerState& m) {
-  return {m.r.cast<Dual>(), m.R.cast<Dual>(), m.v.cast<Dual>(), m.w.cast<Dual>()};
+/// The motion, without a change of its directions, which are zero but within `along_marker`.
+void take_values(const MarkerState& from, MarkerMotion<Dual>& to) noexcept {
+  for (int c = 0; c < 3; ++c) {
+    to.r[c].v = from.r[c];
+    to.v[c].v = from.v[c];
+    to.w[c].v = from.w[c];
+  }
+  for (int k = 0; k < 9; ++k) to.R(k).v = from.R(k);
 }
 
-/// With unit derivatives in the directions (dr, dpi, v, w).
-MarkerMotion<Dual> moving(const MarkerState& m) {
-  MarkerMotion<Dual> out = constant(m);
+/// `unit` times the derivatives in the directions (dr, dpi, v, w).
+void take_directions(const MarkerState& m, double unit, MarkerMotion<Dual>& to) noexcept {
   for (int c = 0; c < 3; ++c) {
-    out.r[c].d[c] = 1.0;
-    out.v[c].d[6 + c] = 1.0;
-    out.w[c].d[9 + c] = 1.0;
-    const Mat3 turned = skew(Vec3::Unit(c)) * m.R;
-    for (int k = 0; k < 9; ++k) out.R(k).d[3 + c] = turned(k);
+    to.r[c].d[c] = unit;
+    to.v[c].d[6 + c] = unit;
+    to.w[c].d[9 + c] = unit;
+    const Mat3 turned = unit * (skew(Vec3::Unit(c)) * m.R);
+    for (int k = 0; k < 9; ++k) to.R(k).d[3 + c] = turned(k);
   }
-  return out;
 }
 
 }  // namespace
@@ -42,36 +46,47 @@ TangentFinder::TangentFinder(const Model& model, const Element& element)
     if (signal.link >= 0) own_links_.push_back(signal.link);
 }
 
-void TangentFinder::evaluate(const Ports& in) noexcept {
+void TangentFinder::evaluate(const Ports& in, const double* input_changes) noexcept {
   efforts_.clear();
   if (!in.element.acts) return;
   element_kind(in.element.type)
       .dual({in.model, in.element, markers_.data(), in.origin, in.t, in.reference_angle, in.inputs,
-             in.branch, states_.data(), in.state_weight, links_.data(), in.angles, in.kept},
+             in.branch, states_.data(), in.state_weight, links_.data(), in.angles, in.kept,
+             input_changes},
             efforts_);
 }
 
-const EffortsOf<Dual>& TangentFinder::along_marker(const Ports& in, int marker) noexcept {
-  for (int i = 0; i < std::ssize(motions_); ++i)
-    motions_[i] = i == marker ? moving(in.marker(i)) : constant(in.marker(i));
+/// The ports, without directions.
+void TangentFinder::take_ports(const Ports& in) noexcept {
+  for (int i = 0; i < std::ssize(motions_); ++i) take_values(in.marker(i), motions_[i]);
   std::copy(in.states, in.states + states_.size(), states_.begin());
   for (const int link : own_links_) links_[link] = in.links[link];
+}
+
+const EffortsOf<Dual>& TangentFinder::along_marker(const Ports& in, int marker) noexcept {
+  take_ports(in);
+  take_directions(in.marker(marker), 1.0, motions_[marker]);
   evaluate(in);
+  take_directions(in.marker(marker), 0.0, motions_[marker]);
   return efforts_;
 }
 
 const EffortsOf<Dual>& TangentFinder::along_inner(const Ports& in, int first) noexcept {
-  for (int i = 0; i < std::ssize(motions_); ++i) motions_[i] = constant(in.marker(i));
+  take_ports(in);
   const int ns = in.element.states, last = first + dual_directions;
-  for (int i = 0; i < std::ssize(states_); ++i) {
-    states_[i] = in.states[i];
-    if (i >= first && i < std::min(ns, last)) states_[i].d[i - first] = 1.0;
-  }
-  for (int i = 0; i < std::ssize(own_links_); ++i) {
-    Dual& link = links_[own_links_[i]] = in.links[own_links_[i]];
-    if (ns + i >= first && ns + i < last) link.d[ns + i - first] = 1.0;
-  }
+  for (int i = first; i < std::min(ns, last); ++i) states_[i].d[i - first] = 1.0;
+  for (int i = 0; i < std::ssize(own_links_); ++i)
+    if (ns + i >= first && ns + i < last) links_[own_links_[i]].d[ns + i - first] = 1.0;
   evaluate(in);
+  return efforts_;
+}
+
+const EffortsOf<Dual>& TangentFinder::along_signals(const Ports& in, const VecX& inputs,
+                                                    const VecX& links) noexcept {
+  assert(std::ssize(in.inputs) == inputs.size() && std::ssize(links_) == links.size());
+  take_ports(in);
+  for (const int link : own_links_) links_[link].d[0] = links[link];
+  evaluate(in, inputs.data());
   return efforts_;
 }
 
@@ -100,10 +115,20 @@ const EffortTangent& TangentFinder::find_inner(const Ports& in) noexcept {
   return out_;
 }
 
+const EffortTangent& TangentFinder::find_results(const Ports& in) noexcept {
+  find_along_markers(in, false);
+  return find_inner(in);
+}
+
 const EffortTangent& TangentFinder::find(const Ports& in) noexcept {
+  find_along_markers(in, true);
+  return find_inner(in);
+}
+
+void TangentFinder::find_along_markers(const Ports& in, bool of_wrenches) noexcept {
   for (int j = 0; j < std::ssize(motions_); ++j) {
     along_marker(in, j);
-    for (Eigen::Index row = 0; row < out_.K.rows(); ++row) {
+    for (Eigen::Index row = 0; of_wrenches && row < out_.K.rows(); ++row) {
       out_.K.row(row).segment<6>(6 * j) = -wrench(row).head<6>().matrix().transpose();
       out_.C.row(row).segment<6>(6 * j) = -wrench(row).tail<6>().matrix().transpose();
     }
@@ -112,7 +137,6 @@ const EffortTangent& TangentFinder::find(const Ports& in) noexcept {
       out_.rates.row(row).segment<6>(6 * j) = result(row).tail<6>().matrix().transpose();
     }
   }
-  return find_inner(in);
 }
 
 EffortTangent exact_tangent(const Ports& in) {

@@ -8,6 +8,7 @@
 #include "floatframe/formulas/formula_evaluation.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/local_formula.hpp"
 
 namespace floatframe {
 
@@ -81,9 +82,14 @@ std::string undefined_formula_text(Formulation& f) {
     if (follows) continue;
     const auto complaint = element_kind(e.type).complaint;
     std::string why = complaint ? complaint(ports) : std::string();
-    for (const Signal& signal : e.signals)
+    std::string owner = element_name(e);
+    for (const Signal& signal : e.signals) {
       if (signal.function.formula && why.empty()) why = fault_at(*signal.function.formula, ports.t);
-    if (!why.empty()) return element_name(e) + ": " + why;
+      if (!signal.local || !why.empty()) continue;
+      why = local_formula_complaint(ports, f.effort(k).length, f.effort(k).rate);
+      owner = "formula '" + signal.local->name + "'";
+    }
+    if (!why.empty()) return owner + ": " + why;
   }
   return {};
 }

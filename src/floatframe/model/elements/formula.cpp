@@ -31,7 +31,7 @@ S operand_value(const PortsOf<S>& in, const FormulaOperand& x) noexcept {
     case FormulaOperand::Kind::time:
       return in.t;
     case FormulaOperand::Kind::input:
-      return in.inputs[x.index];
+      return in.input(x.index);
     case FormulaOperand::Kind::link:
       return in.links[in.element.signals[x.index].link];
     case FormulaOperand::Kind::sample:

@@ -6,6 +6,7 @@
 // The row of the step contains f_s g g^T and the damping f_sdot g g^T.
 #include "floatframe/model/axis_measure.hpp"
 #include "floatframe/model/element_kind.hpp"
+#include "floatframe/model/local_formula.hpp"
 
 namespace floatframe {
 
@@ -24,9 +25,10 @@ void guided_spring_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
   out.length = -m.s;
   out.rate = -m.rate;
   const LawValue<S> s = spring_of(in, out.length), c = damper_of(in, out.rate);
-  out.force = s.f + c.f + in.signal(0).f;
+  const ActuatorValue<S> a = actuator_of(in, out.length, out.rate);
+  out.force = s.f + c.f + a.f;
   out.set_pair(out.force, m.g);
-  out.add_pair_row(m.g, s.df, c.df);
+  out.add_pair_row(m.g, s.df + a.by_measure, c.df + a.by_rate);
   out.energy = energy_of(in.element.laws[0], out.length);
   out.energy_rate = s.f * out.rate;
   out.damping = c.f * out.rate;
@@ -40,13 +42,15 @@ namespace {
 
 BranchSide guided_spring_side(const Ports& in) noexcept {
   const AxisMeasure<double> m = guided_measure(in);
+  if (in.element.switched) return local_formula_side(in, -m.s, -m.rate);
   return spring_side(in, -m.s, -m.rate);
 }
 
 constexpr const char* turning_axis = "the turning of the axis with its body";
 constexpr ElementRegime guided_spring_regimes[] = {
     {.name = "anywhere", .rows_leave_out = turning_axis},
-    {.name = "actuated", .rows_leave_out = turning_axis, .conservative = false}};
+    {.name = "actuated", .rows_leave_out = turning_axis, .conservative = false},
+    {.name = "formula", .rows_leave_out = turning_axis, .conservative = false}};
 
 ElementExample guided_spring_example(std::size_t regime, ExampleNumbers& numbers) {
   ElementExample x;
@@ -56,6 +60,7 @@ ElementExample guided_spring_example(std::size_t regime, ExampleNumbers& numbers
   f.damper = example_damper(numbers);
   x.markers = {numbers.marker(), numbers.marker()};
   if (regime == 1) f.actuator = x.linked_signal(numbers);
+  if (regime == 2) f.actuator = x.local_signal(numbers);
   x.keys(f);
   return x;
 }
@@ -113,6 +118,7 @@ constinit const ElementKind guided_spring_element = {
     .free_value = length_along_axis,
     .validate = guided_spring_validate,
     .build = guided_spring_build,
+    .local_actuator = true,
     .dual = guided_spring_law<Dual>,
     .side = guided_spring_side,
     .picture = guided_spring_picture,

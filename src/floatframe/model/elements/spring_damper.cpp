@@ -5,6 +5,7 @@
 //   rows         f_s n n^T + f/s (I - n n^T) and the damping f_sdot n n^T, between the points
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/model/element_kind.hpp"
+#include "floatframe/model/local_formula.hpp"
 #include "floatframe/model/port_measures.hpp"
 
 namespace floatframe {
@@ -16,7 +17,8 @@ void spring_damper_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
   const LineMeasure<S> line = line_measure(in);
   const TowardTarget<S> x = toward_target(in, line.length, line.rate);
   const LawValue<S> s = spring_of(in, x.stretch), c = damper_of(in, x.rate);
-  pull_along(line, S(s.f + c.f + in.signal(0).f), s.df, c.df, out);
+  const ActuatorValue<S> a = actuator_of(in, line.length, line.rate);
+  pull_along(line, S(s.f + c.f + a.f), s.df + a.by_measure, c.df + a.by_rate, out);
   out.energy = energy_of(in.element.laws[0], x.stretch);
   out.energy_rate = s.f * (line.rate - x.moves);
   out.damping = c.f * x.rate;
@@ -30,6 +32,7 @@ namespace {
 
 BranchSide spring_damper_side(const Ports& in) noexcept {
   const LineMeasure<double> line = line_measure(in);
+  if (in.element.switched) return local_formula_side(in, line.length, line.rate);
   const TowardTarget<double> x = toward_target(in, line.length, line.rate);
   return spring_side(in, x.stretch, x.rate);
 }
@@ -38,7 +41,8 @@ constexpr ElementRegime spring_damper_regimes[] = {{.name = "anywhere"},
                                                    {.name = "short"},
                                                    {.name = "points_coincide", .regular = false},
                                                    {.name = "actuated", .conservative = false},
-                                                   {.name = "driven", .conservative = false}};
+                                                   {.name = "driven", .conservative = false},
+                                                   {.name = "formula", .conservative = false}};
 
 ElementExample spring_damper_example(std::size_t regime, ExampleNumbers& numbers) {
   ElementExample x;
@@ -57,6 +61,7 @@ ElementExample spring_damper_example(std::size_t regime, ExampleNumbers& numbers
     x.inputs[0] *= 0.01;
     x.t = numbers(0.0, 1.0);
   }
+  if (regime == 5) f.actuator = x.local_signal(numbers);
   x.markers = {a, b};
   x.keys(f);
   return x;
@@ -103,6 +108,7 @@ constinit const ElementKind spring_damper_element = {
     .validate = spring_damper_validate,
     .build = build_line,
     .along_line = true,
+    .local_actuator = true,
     .dual = spring_damper_law<Dual>,
     .side = spring_damper_side,
     .picture = picture_of_line,
