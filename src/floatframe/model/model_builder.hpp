@@ -8,6 +8,7 @@
 #include <string>
 
 #include "floatframe/description/name_index.hpp"
+#include "floatframe/model/element_keys.hpp"
 #include "floatframe/model/model.hpp"
 
 namespace floatframe {
