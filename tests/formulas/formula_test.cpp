@@ -82,6 +82,19 @@ TEST(Formula, Faults) {
   EXPECT_EQ(fault_of("x ^ y", {0.0, -1.0}), "'(x ^ y)' is not defined for 0");
 }
 
+// What is chosen from leaves one value behind it, however often that is done.
+TEST(Formula, AnyNumberOfBranches) {
+  std::string sum = "0", all = "x > 0", deep = "x";
+  for (int k = 0; k < 100; ++k) {
+    sum += " + if(x > " + std::to_string(k) + " and (y > 0 or x > 1), 1, y)";
+    all += " and x > " + std::to_string(k - 100);
+  }
+  EXPECT_EQ(value(sum, {40.5, 2.0}), 41.0 + 59 * 2.0);
+  EXPECT_EQ(value("if(" + all + ", 1, 2) + x", {0.5}), 1.5);
+  for (int k = 0; k < 40; ++k) deep = "(2 - (x + " + deep + "))";
+  EXPECT_TRUE(error(deep).ends_with("nested too deeply")) << error(deep);
+}
+
 TEST(Formula, Errors) {
   EXPECT_EQ(error("1 +"), "formula '1 +': a value is missing at the end");
   EXPECT_EQ(error("x > 1"),
@@ -137,6 +150,17 @@ TEST(Formula, DerivativesInTime) {
     EXPECT_NEAR(at(t).df, (at(t + h).f - at(t - h).f) / (2 * h), 1e-4) << text;
     EXPECT_NEAR(at(t).ddf, (at(t + h).df - at(t - h).df) / (2 * h), 1e-3) << text;
   }
+}
+
+// The second derivative of x^n, 1 < n < 2, is infinite at zero.
+TEST(Formula, RootsAtZero) {
+  for (const char* const text : {"(t^2)^1.5", "t^1.5", "sqrt(t)", "(1 - cos(t))^1.25 + t^3"}) {
+    const PiecewisePolynomial::Value v = formula_at(*formula(text), 0.0);
+    EXPECT_EQ(v.f, 0.0) << text;
+    EXPECT_EQ(v.df, 0.0) << text;
+    EXPECT_EQ(v.ddf, 0.0) << text;
+  }
+  EXPECT_NEAR(formula_at(*formula("(t^2)^1.5"), 0.1).ddf, 0.6, 1e-14);
 }
 
 /// A random formula of x, y and z.

@@ -1,9 +1,11 @@
 #include "floatframe/stepping/stepper.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "floatframe/core/plural.hpp"
 #include "floatframe/description/sentences.hpp"
+#include "floatframe/loops/run_error.hpp"
 
 namespace floatframe {
 namespace {
@@ -33,7 +35,7 @@ Stepper::Stepper(const Model& model, const SimulationDescription& options, const
       until_(limits.until && model.until),
       bounded_(limits.bounded),
       grid_(start_.state().t, options.step, limits.duration) {
-  check_ticks();
+  require_samples_of_steps(this->model(), grid_.step());
   if (std::string note = settle_samples(start_, options.step); !note.empty())
     start_.add_note(std::move(note));
   find_corners(options, limits);
@@ -65,6 +67,10 @@ void Stepper::find_corners(const SimulationDescription& o, const StepLimits& lim
   TimeCorners found = time_corners(
       model(),
       {.step = o.step, .begin = begin(), .duration = limits.duration, .all = o.locate_edges});
+  // What is stepped without an end may not get there.
+  if (!found.jumps.empty() && std::isfinite(limits.duration))
+    throw RunError(ErrorCode::contradiction, found.jumps.front());
+  for (std::string& note : found.jumps) start_.add_note(std::move(note));
   if (!limits.bounded) locate_corners(found.located);
   for (std::string& note : found.velocity_jumps) start_.add_note(std::move(note));
   for (std::string& note : limits.bounded ? found.passed : found.dense)
@@ -74,16 +80,6 @@ void Stepper::find_corners(const SimulationDescription& o, const StepLimits& lim
 void Stepper::locate_corners(const std::vector<TimeCorner>& corners) {
   if (!corners.empty() || !ticks_.empty())
     corners_.emplace(f_, *integrator_, corners, ticks_, grid_.step());
-}
-
-/// Shorter parts of steps are not made as steps (corner_steps.hpp).
-void Stepper::check_ticks() const {
-  constexpr double shortest = CornerSteps::shortest;
-  for (const Element& e : model().elements)
-    if (e.clock.ticks() && e.clock.period < shortest * grid_.step())
-      throw InputError(
-          ErrorCode::out_of_range,
-          sentences::step_over_samples(element_name(e), e.clock.period, grid_.step(), shortest));
 }
 
 void Stepper::begin_at_start(bool locate_edges) {

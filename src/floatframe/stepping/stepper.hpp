@@ -128,7 +128,6 @@ class Stepper {
   void begin_at_start(bool locate_edges);
   void find_corners(const SimulationDescription& options, const StepLimits& limits);
   void locate_corners(const std::vector<TimeCorner>& corners);
-  void check_ticks() const;
   void prepare_reactions();
 
   /// What a step changes, kept until it is made if the function of an element may throw or a
@@ -159,6 +158,7 @@ class Stepper {
   double value_of(const WatchedFormula& w) noexcept;
   bool look_for_crossings(const PlannedStep& step) noexcept;
   double crossing_in(const WatchedFormula& w, double h, double end) noexcept;
+  double sampled_instant(double low, double high) const noexcept;
   void return_to_begin() noexcept;
   bool reach(double dt, double h) noexcept;
 
