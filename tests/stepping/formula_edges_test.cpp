@@ -1,6 +1,8 @@
-// Edges of formulas, located: roots and powers that end at them, against the rebound of Hertz.
+// Edges of formulas, located: roots and powers that end at them, against the rebound of Hertz;
+// friction that sticks on one.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/completed_run.hpp"
@@ -71,6 +73,22 @@ TEST_P(FormulaEdges, HideNoFault) {
   EXPECT_NE(r.summary.message.find("'sqrt((0.05 - t))' is not defined"), std::string::npos)
       << r.summary.message;
   EXPECT_NEAR(r.summary.duration, 0.05, 1e-5);
+}
+
+// m x'' = -x - 5 sign(x') stops where v^2/2 = 5 x + x^2/2 and sticks there, on an edge: the rest of
+// each such step is made without the key.
+TEST_P(FormulaEdges, FrictionThatSticksIsFinishedWithout) {
+  const RunResult r = located(
+      ball_on_guide("velocity: 0.3",
+                    "forces: {n: {type: joint_spring, joint: z, spring: 1, actuator: {formula: "
+                    "'-5 * sign(rate(z))'}}}\n"),
+      1e-3, 0.3);
+  EXPECT_NEAR(r.table.data[r.table.data.size() - 2], std::sqrt(25.09) - 5.0, 3e-5);
+  EXPECT_GT(r.summary.edges_passed, 200);
+  EXPECT_LT(r.summary.edges, 17 * 300);
+  EXPECT_LT(r.summary.substeps, 40 * 300);
+  const auto is_edges = [](const RangeWarning& w) { return w.limit == RangeLimit::edges; };
+  EXPECT_EQ(std::ranges::count_if(r.summary.warnings, is_edges), 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, FormulaEdges, ::testing::ValuesIn(both_coordinates),

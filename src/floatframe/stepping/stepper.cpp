@@ -175,12 +175,14 @@ bool Stepper::cover(double h) noexcept {
   asked_ = h;
   ticked_ = -TimeGrid::endless;
   undefined_ = false;
+  if (locator_) locator_->begin();
   take_inputs(h);
   if (has_thrown()) return false;
   const double end = state_.t + h;
   const bool divided = locator_ || (corners_ && corners_->within(state_.t, h));
   count(last_ = part(h, true));
   if (last_.accepted()) {
+    if (locator_) locator_->end(state_, counters_.edges_passed);
     sample_elements(h);
     if (undefined_) return false;
     take_samples();
@@ -205,6 +207,7 @@ bool Stepper::cover(double h) noexcept {
     }
   }
   state_.t = end;
+  if (locator_) locator_->end(state_, counters_.edges_passed);
   ++counters_.steps;
   return true;
 }
@@ -226,7 +229,7 @@ StepAttempt Stepper::part(double h, bool may_meet_corner) noexcept {
           return true;
         });
   if (!locator_) return integrator_->attempt(state_, h);
-  return locator_->step(state_, h, counters_.edges, counters_.edges_passed);
+  return locator_->step(state_, h, counters_.edges);
 }
 
 /// To be called where forces on fixed branches may jump.
