@@ -50,6 +50,16 @@ TEST(FormulaHints, DoNotWhereFrictionSticks) {
     }
 }
 
+TEST(FormulaHints, LawsAreNotedToo) {
+  const auto of_law = [](const std::string& law, bool located) {
+    return notes_about("{type: force_law, joint: z, law: {formula: '" + law + "'}}", located);
+  };
+  EXPECT_NE(of_law("if(x < 0, -100, 0)", false).find("locate_edges: true divides steps there"),
+            std::string::npos);
+  EXPECT_EQ(of_law("if(x < 0, -100, 0)", true), "");
+  EXPECT_NE(of_law("5 * sign(v)", true).find("jumps with a rate"), std::string::npos);
+}
+
 TEST(FormulaHints, NameWhatIsNotLocated) {
   for (const bool located : {false, true}) {
     EXPECT_NE(notes_of("floor(angle(z)) + round(angle(z)) + floor(rate(z))", located)

@@ -73,11 +73,17 @@ void hint_at_kinks(const std::string& name, const Formula& f, bool sticks, bool 
 
 void hint_at_formulas(const Model& model, bool located, HintList& out) {
   hint_at_samples(model, out);
-  for (const Element& e : model.elements)
+  for (const Element& e : model.elements) {
+    if (const auto* keys = std::get_if<ForceLaw>(e.keys.get()); keys && keys->law.formula()) {
+      const Formula& f = *keys->law.formula();
+      const auto reads_rate = [&](int i) { return f.references[i].name == "v"; };
+      hint_at_kinks(e.name, f, may_stick(f, reads_rate), located, out);
+    }
     if (const auto* keys = std::get_if<FormulaValue>(e.keys.get())) {
       const auto reads_rate = [&](int i) { return is_rate(model, e, e.operands[i]); };
       hint_at_kinks(e.name, *keys->formula, may_stick(*keys->formula, reads_rate), located, out);
     }
+  }
 }
 
 }  // namespace floatframe
