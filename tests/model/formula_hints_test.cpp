@@ -60,6 +60,13 @@ TEST(FormulaHints, LawsAreNotedToo) {
   EXPECT_NE(of_law("5 * sign(v)", true).find("jumps with a rate"), std::string::npos);
 }
 
+TEST(FormulaHints, FormulasOfTheTimeAreDividedAt) {
+  EXPECT_EQ(notes_of("if(t < 0.3, 1, -1) + floor(t)", false), "");
+  EXPECT_NE(notes_of("if(t == 0.3, 1, -1) + table(bent, t)", false)
+                .find("corners or jumps of '==' and 'table' that steps cross"),
+            std::string::npos);
+}
+
 TEST(FormulaHints, NameWhatIsNotLocated) {
   for (const bool located : {false, true}) {
     EXPECT_NE(notes_of("floor(angle(z)) + round(angle(z)) + floor(rate(z))", located)

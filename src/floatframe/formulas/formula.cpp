@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/number_rule.hpp"
@@ -88,6 +89,27 @@ PiecewisePolynomial::Value formula_at(const Formula& f, double t) noexcept {
   FormulaFault fault;
   const Jet y = jet_at(f, t, fault);
   return {y.f, y.df, y.ddf};
+}
+
+std::uint64_t pieces_at(const Formula& f, double t) noexcept {
+  FormulaSwitches switches;
+  FormulaFault fault;
+  evaluate_formula<double>(
+      f, [t](int) { return t; }, switches, fault);
+  return switches.pieces;
+}
+
+double piece_change(const Formula& f, double from, double to) noexcept {
+  const std::uint64_t here = pieces_at(f, from);
+  double low = from, high = low + 0.5 * (to - from);
+  if (pieces_at(f, high) == here) {
+    low = high;
+    high = to;
+    if (pieces_at(f, high) == here) return std::numeric_limits<double>::infinity();
+  }
+  for (double middle; (middle = low + 0.5 * (high - low)) > low && middle < high;)
+    (pieces_at(f, middle) == here ? low : high) = middle;
+  return high;
 }
 
 std::string fault_at(const Formula& f, double t) {

@@ -60,6 +60,7 @@ enum class FormulaOp : std::uint8_t {
   multiply_number,  ///< the same
   divide,
   power,
+  stairs,           ///< a unary function that jumps
   power_of_number,  ///< exponent: `number`
   small_power,      ///< the same, of 2, 3, ... `Formula::small_exponent`
   negative,
@@ -104,6 +105,10 @@ struct FormulaKink {
   std::string word;             ///< "clip", "<", "floor", "table"
   int held = -1;                ///< its switch, if that can be held
   std::vector<int> references;  ///< that its place depends on
+  /// Of a function of time its instant is found (`piece_change`).
+  bool between_pieces() const noexcept {
+    return word != "==" && word != "!=" && word != "table" && word != "table2";
+  }
 };
 
 struct Formula {

@@ -241,8 +241,9 @@ class Compiler {
     if (unary) {
       const auto start = std::ssize(out_.steps);
       number(node.parts[0], f);
-      f == "abs" ? add_switch(node, FormulaOp::abs, 1, start)
-                 : add(node, FormulaOp::unary, 1, -1, 0.0, unary);
+      f == "abs"
+          ? add_switch(node, FormulaOp::abs, 1, start)
+          : add(node, unary->jumps ? FormulaOp::stairs : FormulaOp::unary, 1, -1, 0.0, unary);
       if (unary->jumps) add_kink(out_, f, start);
       return Type::number;
     }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "floatframe/model/element_evaluation.hpp"
+#include "floatframe/model/element_outputs.hpp"
 #include "floatframe/model/hint_list.hpp"
 #include "floatframe/model/output_kind.hpp"
 
@@ -40,15 +41,24 @@ bool may_stick(const Formula& f, const auto& reads_rate) {
 }
 
 /// "'floor' and 'table'", of the kinks that no step ends at.
-std::string words_not_found(const Formula& f) {
+std::string words_not_found(const Formula& f, bool of_time) {
   std::vector<std::string> words;
   for (const FormulaKink& kink : f.kinks)
-    if (kink.held < 0 && std::ranges::find(words, kink.word) == words.end())
+    if ((of_time ? !kink.between_pieces() : kink.held < 0) &&
+        std::ranges::find(words, kink.word) == words.end())
       words.push_back(kink.word);
   std::string text;
   for (std::size_t k = 0; k < words.size(); ++k)
     text += (k == 0 ? "'" : k + 1 < words.size() ? ", '" : " and '") + words[k] + "'";
   return text;
+}
+
+void hint_at_words(const std::string& name, const Formula& f, bool of_time, HintList& out) {
+  if (const std::string words = words_not_found(f, of_time); !words.empty())
+    out.add("formula", name,
+            fmt::format("has corners or jumps of {} that steps cross, also with locate_edges: "
+                        "results there are of first order in the step",
+                        words));
 }
 
 void hint_at_kinks(const std::string& name, const Formula& f, bool sticks, bool located,
@@ -62,11 +72,7 @@ void hint_at_kinks(const std::string& name, const Formula& f, bool sticks, bool 
     out.add("formula", name,
             "has corners or jumps (comparisons, clip, min, max, abs, sign) that steps cross; "
             "locate_edges: true divides steps there");
-  if (const std::string words = words_not_found(f); !words.empty())
-    out.add("formula", name,
-            fmt::format("has corners or jumps of {} that steps cross, also with locate_edges: "
-                        "results there are of first order in the step",
-                        words));
+  hint_at_words(name, f, false, out);
 }
 
 }  // namespace
@@ -74,6 +80,9 @@ void hint_at_kinks(const std::string& name, const Formula& f, bool sticks, bool 
 void hint_at_formulas(const Model& model, bool located, HintList& out) {
   hint_at_samples(model, out);
   for (const Element& e : model.elements) {
+    for (const ElementSignal& s : signals_of(e))
+      if (const SharedFormula& f = s.signal->function.formula)
+        hint_at_words(e.name + "/" + s.what, *f, true, out);
     if (const auto* keys = std::get_if<ForceLaw>(e.keys.get()); keys && keys->law.formula()) {
       const Formula& f = *keys->law.formula();
       const auto reads_rate = [&](int i) { return f.references[i].name == "v"; };

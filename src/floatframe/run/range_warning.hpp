@@ -25,7 +25,7 @@ enum class RangeLimit {
 };
 /// In this order.
 inline constexpr std::array<const char*, 14> range_limit_names{
-    "displacement", "rotation", "spin",   "turn",      "phase",   "sine",   "table",
+    "displacement", "rotation", "spin",   "turn",      "phase",   "sine",    "table",
     "damping",      "balance",  "branch", "half_turn", "contact", "formula", "edges"};
 
 struct RangeWarning {

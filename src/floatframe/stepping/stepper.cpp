@@ -72,8 +72,9 @@ void Stepper::find_corners(const SimulationDescription& o, const StepLimits& lim
 }
 
 void Stepper::locate_corners(const std::vector<TimeCorner>& corners) {
-  if (!corners.empty() || !ticks_.empty())
-    corners_.emplace(f_, *integrator_, corners, ticks_, grid_.step());
+  std::vector<FormulaOfTime> formulas = formulas_of_time(model());
+  if (!corners.empty() || !ticks_.empty() || !formulas.empty())
+    corners_.emplace(f_, *integrator_, corners, ticks_, std::move(formulas), grid_.step());
 }
 
 /// Shorter parts of steps are not made as steps (corner_steps.hpp).
