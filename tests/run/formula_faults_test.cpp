@@ -12,7 +12,7 @@
 namespace floatframe::test {
 namespace {
 
-RunResult run_of(const std::string& rest, Coordinates coordinates) {
+RunResult run_with_fault(const std::string& rest, Coordinates coordinates) {
   const Model model = model_of(R"(
 bodies: {b: {position: [0, 0, 0], rigid: {mass: 1}}}
 joints: {z: {type: prismatic, child: b, at: [0, 0, 0], axis: z}}
@@ -27,7 +27,7 @@ class FormulaFaults : public ::testing::TestWithParam<Coordinates> {
   void ends(const std::string& controller, const std::string& why) const {
     const std::string text =
         "outputs: {x: {joint_position: z}}\ncontrollers: {c: " + controller + "}\n";
-    const RunResult r = run_of(text, GetParam());
+    const RunResult r = run_with_fault(text, GetParam());
     EXPECT_EQ(r.summary.status, "failed") << controller;
     EXPECT_NE(r.summary.message.find(why), std::string::npos) << r.summary.message;
     EXPECT_NE(r.summary.message.find("step failed at t = 0.125 s"), std::string::npos)
@@ -53,7 +53,7 @@ TEST_P(FormulaFaults, EndARun) {
 
 // An instant of a sample within a step.
 TEST_P(FormulaFaults, EndARunWithinAStep) {
-  const RunResult r = run_of(
+  const RunResult r = run_with_fault(
       "controllers: {c: {type: zero_order_hold, input: {formula: 'sqrt(0.1 - t)'}, period: 0.035}}",
       GetParam());
   EXPECT_EQ(r.summary.status, "failed");
@@ -64,20 +64,20 @@ TEST_P(FormulaFaults, EndARunWithinAStep) {
 }
 
 TEST_P(FormulaFaults, NameTheFormulaThatOthersFollow) {
-  const RunResult r = run_of(R"(
+  const RunResult r = run_with_fault(R"(
 forces: {n: {type: joint_spring, joint: z, actuator: {controller: b}}}
 controllers:
   b: {type: formula, formula: '2 * controller(a)'}
   a: {type: formula, formula: 'sqrt(0.1 - t) + 0 * angle(z)'}
 )",
-                             GetParam());
+                                     GetParam());
   EXPECT_NE(r.summary.message.find("formula 'a': 'sqrt((0.1 - t))' is not defined"),
             std::string::npos)
       << r.summary.message;
 }
 
 TEST_P(FormulaFaults, OfOutputsAreAWarning) {
-  RunResult r = run_of(R"(
+  RunResult r = run_with_fault(R"(
 outputs:
   x: {joint_position: z}
   y: {formula: '1 / (0.125 - t)'}
@@ -85,7 +85,7 @@ outputs:
   e: {formula: 'exp(1e4 * t)'}
   good: {formula: 'if(t < 0.1, 1 / (0.2 - t), 0)'}
 )",
-                       GetParam());
+                               GetParam());
   EXPECT_EQ(r.summary.status, "completed") << r.summary.message;
   ASSERT_EQ(r.summary.warnings.size(), 1u);
   EXPECT_EQ(r.summary.warnings[0].limit, RangeLimit::formula);
@@ -102,7 +102,7 @@ outputs:
 
 TEST_P(FormulaFaults, OfCrossingsAreAWarning) {
   const RunResult r =
-      run_of("outputs: {first: {first_crossing: 'sqrt(0.2 - t) - 9'}}\n", GetParam());
+      run_with_fault("outputs: {first: {first_crossing: 'sqrt(0.2 - t) - 9'}}\n", GetParam());
   ASSERT_EQ(r.summary.warnings.size(), 1u);
   EXPECT_NE(r.summary.warnings[0].sentence.find("output 'first' has no value: 'sqrt((0.2 - t))'"),
             std::string::npos);

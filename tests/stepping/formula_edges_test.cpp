@@ -1,6 +1,8 @@
-// Edges of formulas, located: roots and powers that end at them, against the rebound of Hertz.
+// Edges of formulas, located: roots and powers that end at them, against the rebound of Hertz;
+// friction that sticks on one; those of laws.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/completed_run.hpp"
@@ -71,6 +73,39 @@ TEST_P(FormulaEdges, HideNoFault) {
   EXPECT_NE(r.summary.message.find("'sqrt((0.05 - t))' is not defined"), std::string::npos)
       << r.summary.message;
   EXPECT_NEAR(r.summary.duration, 0.05, 1e-5);
+}
+
+// m x'' = -x - 5 sign(x') stops where v^2/2 = 5 x + x^2/2 and sticks there, on an edge: the rest of
+// each such step is made without the key.
+TEST_P(FormulaEdges, FrictionThatSticksIsFinishedWithout) {
+  const RunResult r = located(
+      ball_on_guide("velocity: 0.3",
+                    "forces: {n: {type: joint_spring, joint: z, spring: 1, actuator: {formula: "
+                    "'-5 * sign(rate(z))'}}}\n"),
+      1e-3, 0.3);
+  EXPECT_NEAR(r.table.data[r.table.data.size() - 2], std::sqrt(25.09) - 5.0, 3e-5);
+  EXPECT_GT(r.summary.edges_passed, 100);
+  EXPECT_LT(r.summary.edges, 17 * 300);
+  EXPECT_LT(r.summary.substeps, 40 * 300);
+  const auto is_edges = [](const RangeWarning& w) { return w.limit == RangeLimit::edges; };
+  EXPECT_EQ(std::ranges::count_if(r.summary.warnings, is_edges), 1);
+}
+
+// A fall of 0.05 m at 9.81 m/s2 onto a constant push: accelerations are constant between edges, and
+// located steps are exact.
+TEST_P(FormulaEdges, OfLawsAreLocated) {
+  constexpr double g = 9.81, up = 100.0, height = 0.05, end = 0.2;
+  const double speed = std::sqrt(2.0 * g * height), since = end - speed / g - 2.0 * speed / up;
+  const double x = speed * since - 0.5 * g * since * since;
+  for (const char* law : {"if(x < 0, -100, 9.81)", "9.81 - 54.905 * (1 - sign(x))"}) {
+    const RunResult r = located(
+        ball_on_guide("position: 0.05", std::string("forces: {n: {type: force_law, joint: z, "
+                                                    "law: {formula: '") +
+                                            law + "'}}}\n"),
+        1e-3, end);
+    EXPECT_EQ(r.summary.edges, 2) << law;
+    EXPECT_NEAR(r.table.data[r.table.data.size() - 2], x, 1e-7) << law;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, FormulaEdges, ::testing::ValuesIn(both_coordinates),

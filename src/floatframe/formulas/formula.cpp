@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
+#include <limits>
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/number_rule.hpp"
@@ -89,6 +91,27 @@ PiecewisePolynomial::Value formula_at(const Formula& f, double t) noexcept {
   return {y.f, y.df, y.ddf};
 }
 
+std::uint64_t pieces_at(const Formula& f, double t) noexcept {
+  FormulaSwitches switches;
+  FormulaFault fault;
+  evaluate_formula<double>(
+      f, [t](int) { return t; }, switches, fault);
+  return switches.pieces;
+}
+
+double piece_change(const Formula& f, double from, double to) noexcept {
+  const std::uint64_t here = pieces_at(f, from);
+  double low = from, high = low + 0.5 * (to - from);
+  if (pieces_at(f, high) == here) {
+    low = high;
+    high = to;
+    if (pieces_at(f, high) == here) return std::numeric_limits<double>::infinity();
+  }
+  for (double middle; (middle = low + 0.5 * (high - low)) > low && middle < high;)
+    (pieces_at(f, middle) == here ? low : high) = middle;
+  return high;
+}
+
 std::string fault_at(const Formula& f, double t) {
   FormulaFault fault;
   jet_at(f, t, fault);
@@ -111,6 +134,59 @@ int used_table(Formula& f, const std::string& name, bool grid, const FormulaTabl
   };
   return grid ? find(tables.grids, tables.curves, f.grids)
               : find(tables.curves, tables.grids, f.curves);
+}
+
+std::string fold_last_step(Formula& f, int operands) {
+  const auto n = std::ssize(f.steps), first = n - 1 - operands;
+  Formula part;
+  for (auto k = first; k < n; ++k) {
+    part.steps.push_back(f.steps[k]);
+    part.sources.push_back(f.sources[k]);
+    if (k < n - 1 && f.steps[k].op != FormulaOp::number) return {};
+  }
+  FormulaSwitches switches;
+  FormulaFault fault;
+  const double value = evaluate_formula<double>(
+      part, [](int) { return 0.0; }, switches, fault);
+  if (fault.kind != FormulaFault::Kind::none) return fault_text(part, fault);
+  std::string source = f.sources.back();
+  f.steps.resize(first);
+  f.sources.resize(first);
+  f.steps.push_back({FormulaOp::number, -1, value, nullptr});
+  f.sources.push_back(std::move(source));
+  return {};
+}
+
+void add_kink(Formula& f, const std::string& word, std::ptrdiff_t first, int a_switch) {
+  FormulaKink kink{word, a_switch < Formula::most_switches ? a_switch : -1, {}};
+  for (auto at = first; at < std::ssize(f.steps); ++at)
+    if (f.steps[at].op == FormulaOp::reference) kink.references.push_back(f.steps[at].index);
+  if (!kink.references.empty()) f.kinks.push_back(std::move(kink));
+}
+
+bool jumps_at(const Formula& f, const FormulaKink& kink) noexcept {
+  if (kink.held < 0 || !(kink.word == "sign" || std::strchr("<>", kink.word[0]))) return false;
+  struct Side {
+    double f, beyond;
+  };
+  const auto side = [&](int piece, double x) -> Side {
+    FormulaSwitches switches;
+    FormulaFault fault;
+    switches.held = FormulaSwitches::with(0, kink.held, piece);
+    const double y = evaluate_formula<double>(
+        f,
+        [&](int i) {
+          const bool moves = std::ranges::find(kink.references, i) != kink.references.end();
+          return moves ? x : 0.7 + 0.1 * i;
+        },
+        switches, fault);
+    return {y, switches.beyond};
+  };
+  const double at_0 = side(1, 0.0).beyond, at_1 = side(1, 1.0).beyond;
+  const double x = at_0 == at_1 ? 0.0 : at_0 / (at_0 - at_1);
+  const double a = side(1, x).f, b = side(2, x).f;
+  const double size = std::abs(side(1, x + 1.0).f) + std::abs(side(2, x - 1.0).f);
+  return std::abs(b - a) > 1e-9 * (std::abs(a) + std::abs(b) + size);
 }
 
 bool Formula::is_of_time() const noexcept {

@@ -8,6 +8,7 @@
 //   switches     where a comparison, clip, min, max, abs or sign changes from one smooth piece to
 //                another: they can be held, so that a step ends at their edges
 // It is a stack machine: each step takes its operands from the top of the stack and leaves one.
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -59,6 +60,7 @@ enum class FormulaOp : std::uint8_t {
   multiply_number,  ///< the same
   divide,
   power,
+  stairs,           ///< a unary function that jumps
   power_of_number,  ///< exponent: `number`
   small_power,      ///< the same, of 2, 3, ... `Formula::small_exponent`
   negative,
@@ -98,6 +100,17 @@ struct FormulaStep {
   const UnaryFunction* function = nullptr;
 };
 
+/// Where a formula has a corner or jumps.
+struct FormulaKink {
+  std::string word;             ///< "clip", "<", "floor", "table"
+  int held = -1;                ///< its switch, if that can be held
+  std::vector<int> references;  ///< that its place depends on
+  /// Of a function of time its instant is found (`piece_change`).
+  bool between_pieces() const noexcept {
+    return word != "==" && word != "!=" && word != "table" && word != "table2";
+  }
+};
+
 struct Formula {
   std::string text;  ///< with all parentheses
   std::vector<FormulaStep> steps;
@@ -107,6 +120,7 @@ struct Formula {
   std::vector<std::shared_ptr<const PiecewisePolynomial>> curves;
   std::vector<std::shared_ptr<const GridTable>> grids;
   int switches = 0;
+  std::vector<FormulaKink> kinks;  ///< that something moves across
 
   static constexpr int deepest_stack = 32;
   static constexpr int small_exponent = 8;
@@ -114,6 +128,16 @@ struct Formula {
   /// It depends on nothing but the time.
   bool is_of_time() const noexcept;
 };
+
+/// Of the last step, whose operands are the steps from `first` on.
+void add_kink(Formula& f, const std::string& word, std::ptrdiff_t first, int a_switch = -1);
+/// The value differs on both sides of this kink, where the numbers that it depends on are equal and
+/// the others are any.
+bool jumps_at(const Formula& f, const FormulaKink& kink) noexcept;
+
+/// Replaces the last step and its operands by its value, if these are numbers. Returns why it has
+/// none.
+std::string fold_last_step(Formula& f, int operands);
 
 /// The place of a table, a grid or a curve, among those that a formula uses from now on. Throws
 /// ExpressionError.

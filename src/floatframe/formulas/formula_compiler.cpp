@@ -16,6 +16,11 @@ enum class Type { number, truth };
 
 std::string in_quotes(const std::string& s) { return "'" + s + "'"; }
 
+void require_constants(const std::string& function, const std::vector<double>& constants) {
+  if (const std::string why = constants_complaint(function, constants); !why.empty())
+    throw ExpressionError(why);
+}
+
 /// Steps of each node after those of its parts.
 class Compiler {
  public:
@@ -70,25 +75,9 @@ class Compiler {
     const auto n = std::ssize(out_.steps);
     const FormulaStep& last = out_.steps.back();
     if (operands < 1 || n <= operands || n - 1 - operands < target_ || last.index >= 0) return;
-    Formula part;
-    for (auto k = n - 1 - operands; k < n; ++k) {
-      part.steps.push_back(out_.steps[k]);
-      part.sources.push_back(out_.sources[k]);
-      if (k < n - 1 && out_.steps[k].op != FormulaOp::number) return;
-    }
-    FormulaSwitches switches;
-    FormulaFault fault;
-    const double value = evaluate_formula<double>(
-        part, [](int) { return 0.0; }, switches, fault);
-    if (fault.kind != FormulaFault::Kind::none) {  // a branch may not be reached
-      if (branches_ == 0) throw ExpressionError(fault_text(part, fault));
-      return;
-    }
-    out_.steps.resize(n - 1 - operands);
-    std::string source = out_.sources.back();
-    out_.sources.resize(n - 1 - operands);
-    out_.steps.push_back({FormulaOp::number, -1, value, nullptr});
-    out_.sources.push_back(std::move(source));
+    const std::string why = fold_last_step(out_, operands);
+    // A branch may not be reached.
+    if (!why.empty() && branches_ == 0) throw ExpressionError(why);
   }
   Type constant(double value) {
     add({SyntaxNode::Kind::number, value, "", {}}, FormulaOp::number, 0, -1, value);
@@ -103,6 +92,11 @@ class Compiler {
                             in_quotes(expression_text(part)));
   }
   int new_switch() { return out_.switches++; }
+  /// A step that decides between pieces.
+  void add_switch(const SyntaxNode& node, FormulaOp op, int operands, std::ptrdiff_t first) {
+    add(node, op, operands, new_switch());
+    add_kink(out_, node.word, first, out_.switches - 1);
+  }
 
   /// If the steps from `first` on are one number that no jump leaves out: it, without the step.
   std::optional<double> take_number(std::ptrdiff_t first) {
@@ -164,6 +158,7 @@ class Compiler {
   }
   Type comparison(const SyntaxNode& node) {
     const std::string& o = node.word;
+    const auto start = std::ssize(out_.steps);
     const bool turned = o == ">" || o == ">=", equality = o == "==" || o == "!=";
     const Type first = emit(node.parts[turned ? 1 : 0]);
     const Type second = emit(node.parts[turned ? 0 : 1]);
@@ -172,10 +167,11 @@ class Compiler {
                             in_quotes(expression_text(node)));
     if (equality) {
       add(node, FormulaOp::equal, 2);
+      add_kink(out_, o, start);
       if (o == "!=") add(node, FormulaOp::not_, 1);
     } else {
       const bool strict = o == "<" || o == ">";
-      add(node, strict ? FormulaOp::less : FormulaOp::less_equal, 2, new_switch());
+      add_switch(node, strict ? FormulaOp::less : FormulaOp::less_equal, 2, start);
     }
     return Type::truth;
   }
@@ -244,9 +240,12 @@ class Compiler {
         !complaint.empty())
       throw ExpressionError(complaint);
     if (unary) {
+      const auto start = std::ssize(out_.steps);
       number(node.parts[0], f);
-      f == "abs" ? add(node, FormulaOp::abs, 1, new_switch())
-                 : add(node, FormulaOp::unary, 1, -1, 0.0, unary);
+      f == "abs"
+          ? add_switch(node, FormulaOp::abs, 1, start)
+          : add(node, unary->jumps ? FormulaOp::stairs : FormulaOp::unary, 1, -1, 0.0, unary);
+      if (unary->jumps) add_kink(out_, f, start);
       return Type::number;
     }
     return function(node, word->function);
@@ -264,11 +263,8 @@ class Compiler {
     return reference(node, {node.word, word_of(node.parts[0]),
                             node.parts.size() > 1 ? word_of(node.parts[1]) : ""});
   }
-  static void complain(const SyntaxNode& node, const std::vector<double>& constants) {
-    if (const std::string why = constants_complaint(node.word, constants); !why.empty())
-      throw ExpressionError(why);
-  }
-  Type of_numbers(const SyntaxNode& node, FormulaOp op, int a_switch = -1) {
+  Type of_numbers(const SyntaxNode& node, FormulaOp op, bool switches = false) {
+    const auto start = std::ssize(out_.steps);
     std::vector<double> constants;  // NaN: of another part
     for (const SyntaxNode& part : node.parts) {
       const auto before = std::ssize(out_.steps);
@@ -277,8 +273,9 @@ class Compiler {
       constants.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
       if (value) constant(*value);
     }
-    complain(node, constants);
-    add(node, op, std::ssize(node.parts), a_switch);
+    require_constants(node.word, constants);
+    switches ? add_switch(node, op, std::ssize(node.parts), start)
+             : add(node, op, std::ssize(node.parts));
     return Type::number;
   }
   /// A part that is the same number at any time.
@@ -296,25 +293,20 @@ class Compiler {
         return selection(node);
       case Function::min:
       case Function::max:
-        number(node.parts[0], node.word);
-        for (std::size_t k = 1; k < node.parts.size(); ++k) {
-          number(node.parts[k], node.word);
-          add(node, f == Function::min ? FormulaOp::min : FormulaOp::max, 2, new_switch());
-        }
-        return Type::number;
+        return least_or_most(node, f == Function::min ? FormulaOp::min : FormulaOp::max);
       case Function::atan2:
         return of_numbers(node, FormulaOp::atan2);
       case Function::clip:
-        return of_numbers(node, FormulaOp::clip, new_switch());
+        return of_numbers(node, FormulaOp::clip, true);
       case Function::smoothstep:
         return of_numbers(node, FormulaOp::smoothstep);
       case Function::sign:
         return node.parts.size() > 1 ? of_numbers(node, FormulaOp::smooth_sign)
-                                     : of_numbers(node, FormulaOp::sign, new_switch());
+                                     : of_numbers(node, FormulaOp::sign, true);
       case Function::chirp:
         number(node.parts[0], node.word);
         for (std::size_t k = 1; k < 4; ++k) constant(constant_part(node.parts[k], node.word));
-        complain(node, {0.0, 0.0, 0.0, out_.steps.back().number});
+        require_constants(node.word, {0.0, 0.0, 0.0, out_.steps.back().number});
         add(node, FormulaOp::chirp, 4);
         return Type::number;
       case Function::sum_of_sines:
@@ -326,6 +318,15 @@ class Compiler {
         return table(node, f == Function::table2);
       case Function::delay:
         return delay(node);
+    }
+    return Type::number;
+  }
+  Type least_or_most(const SyntaxNode& node, FormulaOp op) {
+    const auto start = std::ssize(out_.steps);
+    number(node.parts[0], node.word);
+    for (std::size_t k = 1; k < node.parts.size(); ++k) {
+      number(node.parts[k], node.word);
+      add_switch(node, op, 2, start);
     }
     return Type::number;
   }
@@ -351,7 +352,7 @@ class Compiler {
   Type noise(const SyntaxNode& node) {
     const double seed = constant_part(node.parts[0], node.word),
                  dt = constant_part(node.parts[1], node.word);
-    complain(node, {seed, dt});
+    require_constants(node.word, {seed, dt});
     reference(node, {"", "t", ""});
     constant(dt);
     add(node, FormulaOp::divide, 2);
@@ -361,7 +362,7 @@ class Compiler {
   /// A value of the model, which keeps the past of another formula.
   Type delay(const SyntaxNode& node) {
     const double time = constant_part(node.parts[1], node.word);
-    complain(node, {time});
+    require_constants(node.word, {time});
     return reference(node, {node.word, expression_text(node.parts[0]), number_text(time),
                             compile_formula(node.parts[0], tables_, out_.mirror), time});
   }
@@ -371,7 +372,9 @@ class Compiler {
       throw ExpressionError("found " + in_quotes(expression_text(first)) + " in " +
                             in_quotes(node.word) + ", expected the name of a table");
     const int index = used_table(out_, first.word, grid, tables_);
+    const auto start = std::ssize(out_.steps);
     for (std::size_t k = 1; k < node.parts.size(); ++k) number(node.parts[k], node.word);
+    if (grid || !out_.curves[index]->edges().empty()) add_kink(out_, node.word, start);
     add(node, grid ? FormulaOp::grid : FormulaOp::curve, grid ? 2 : 1, index);
     return Type::number;
   }

@@ -1,5 +1,6 @@
 #pragma once
 // Evaluation of formulas. Step time: no heap, noexcept.
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
@@ -31,6 +32,9 @@ struct FormulaSwitches {
   /// The largest distance of a held switch beyond the edge of its piece, and the piece there.
   double beyond = -std::numeric_limits<double>::max();
   int crossed = -1, next = 0;
+  std::uint64_t pieces = 0;  ///< differs where the path through all pieces does
+
+  void pass(std::uint64_t piece) noexcept { pieces = 31 * pieces + piece; }
 
   static std::int64_t with(std::int64_t all, int k, int piece) noexcept {
     return (all & ~(std::int64_t{3} << (2 * k))) | (std::int64_t{piece} << (2 * k));
@@ -40,10 +44,12 @@ struct FormulaSwitches {
   /// of a piece, and what is there.
   template <class Beyond>
   int decide(int k, int natural, const Beyond& beyond_of) noexcept {
+    const bool is_open = k >= Formula::most_switches || piece_of(k) == 0;
+    const int piece = is_open ? natural : piece_of(k);
+    pass(piece);
     if (k >= Formula::most_switches) return natural;
-    const int piece = piece_of(k) == 0 ? natural : piece_of(k);
     present = with(present, k, piece);
-    if (piece_of(k) != 0) {
+    if (!is_open) {
       int other = 0;
       const double distance = beyond_of(piece, other);
       if (distance > beyond) beyond = distance, crossed = k, next = other;
@@ -236,6 +242,11 @@ class FormulaMachine {
         fail_beyond(x);
         return take_root(s.function->beyond(x));
       }
+      case Op::stairs: {
+        const double y = s.function->at(number(1, 0)).f;
+        switches_.pass(std::bit_cast<std::uint64_t>(y));
+        return leave(1, y);
+      }
       case Op::power_of_number: {
         const double x = number(1, 0), n = s.number;
         if (x < 0.0 && n > 0.0 && n != std::floor(n)) return odd_power(x, n);
@@ -346,6 +357,13 @@ S evaluate_formula(const Formula& f, const ValueOf& value_of_reference, FormulaS
 
 /// Of a formula of time alone; and why it has no value there.
 PiecewisePolynomial::Value formula_at(const Formula& f, double t) noexcept;
+/// The same number as long as it is on the same pieces: comparisons, clip, min, max, abs, sign,
+/// floor, ceil, round.
+std::uint64_t pieces_at(const Formula& f, double t) noexcept;
+/// The first instant in (from, to] at which it is on other pieces than at `from`, to rounding;
+/// infinite if there is none. One that leaves them and comes back within half of the way is not
+/// seen.
+double piece_change(const Formula& f, double from, double to) noexcept;
 std::string fault_at(const Formula& f, double t);
 
 }  // namespace floatframe

@@ -93,9 +93,12 @@ constexpr std::array unary_functions{
                     return {std::abs(x), x < 0.0 ? -1.0 : 1.0};
                   },
                   any_argument},
-    UnaryFunction{"floor", [](double x) -> FunctionValue { return {std::floor(x)}; }, any_argument},
-    UnaryFunction{"ceil", [](double x) -> FunctionValue { return {std::ceil(x)}; }, any_argument},
-    UnaryFunction{"round", [](double x) -> FunctionValue { return {std::round(x)}; }, any_argument},
+    UnaryFunction{"floor", [](double x) -> FunctionValue { return {std::floor(x)}; }, any_argument,
+                  nullptr, true},
+    UnaryFunction{"ceil", [](double x) -> FunctionValue { return {std::ceil(x)}; }, any_argument,
+                  nullptr, true},
+    UnaryFunction{"round", [](double x) -> FunctionValue { return {std::round(x)}; }, any_argument,
+                  nullptr, true},
 };
 constexpr std::size_t endless = std::numeric_limits<std::size_t>::max();
 constexpr std::array function_words{

@@ -20,6 +20,7 @@ struct UnaryFunction {
   bool (*defined)(double x);
   /// Where it ends with a finite value: the end of its range next to x. Null: nowhere.
   double (*end)(double x) = nullptr;
+  bool jumps = false;
 
   /// Beyond an end e a function of a held piece goes on as the image of what is before it, turned
   /// about its end: 2 f(e) - f(2 e - x).

@@ -234,6 +234,8 @@ bool has_branches(const Element& element) noexcept {
   if (const auto* keys = std::get_if<FormulaValue>(element.keys.get()))
     return keys->formula->switches > 0;
   if (element.switched) return true;
+  if (const auto* keys = std::get_if<ForceLaw>(element.keys.get()))
+    return keys->law.formula() && keys->law.formula()->switches > 0;
   return element.laws.empty() ||
          std::any_of(element.laws.begin(), element.laws.end(),
                      [](const PiecewisePolynomial& law) { return !law.edges().empty(); });

@@ -24,6 +24,9 @@ class HintList {
 
 /// Numbers of bars outside of the range of any material, section or position: wrong units.
 void hint_at_units(const ModelDescription& description, HintList& out);
+/// Formulas of what is known only at the end of a step, or with corners and jumps. `located`:
+/// steps end where that is possible.
+void hint_at_formulas(const Model& model, bool located, HintList& out);
 /// The bending stiffnesses of the bars of all flexible bodies.
 std::vector<BarBending> bar_bending(const ModelDescription& description, const Model& model);
 

@@ -12,7 +12,6 @@
 
 #include "floatframe/fe/node_dof_names.hpp"
 #include "floatframe/math/union_find.hpp"
-#include "floatframe/model/element_evaluation.hpp"
 #include "floatframe/model/element_outputs.hpp"
 #include "floatframe/model/hint_list.hpp"
 #include "floatframe/model/joint_kind.hpp"
@@ -136,34 +135,6 @@ void hint_at_angles(const ModelDescription& description, const Model& model, Hin
   for (const auto& [body, offset] : description.simulation.offset)
     if (offset.rotation && beyond_a_turn(offset.rotation->norm()))
       out.add("body", body, turns_text("its start offset", offset.rotation->norm()));
-}
-
-/// Formulas of what is known only at the end of a step.
-void hint_at_samples(const Model& model, HintList& out) {
-  for (const Element& e : model.elements) {
-    std::string names;
-    for (const FormulaOperand& x : e.operands)
-      if (x.kind == FormulaOperand::Kind::sample)
-        names += (names.empty() ? "'" : ", '") + x.output.name + "'";
-    if (!names.empty())
-      out.add("formula", e.name,
-              "reads " + names +
-                  " of the end of the step before: results are of first order in the step, and "
-                  "linear systems hold them constant");
-  }
-}
-
-void hint_at_switches(const Model& model, HintList& out) {
-  for (const Element& e : model.elements) {
-    std::vector<std::string> names;
-    if (std::holds_alternative<FormulaValue>(*e.keys) && has_branches(e)) names.push_back(e.name);
-    for (const Signal& s : e.signals)
-      if (s.local && s.local->formula->switches > 0) names.push_back(s.local->name);
-    for (const std::string& name : names)
-      out.add("formula", name,
-              "has corners or jumps (comparisons, clip, min, max, abs, sign) that steps cross; "
-              "locate_edges: true divides steps there");
-  }
 }
 
 bool joint_turns(const Joint& j) {
@@ -299,8 +270,7 @@ ModelHints model_hints(const ModelDescription& description, const Model& model) 
   hint_at_angles(description, model, hints);
   hint_at_inertia(description, model, hints);
   hint_at_clamps(description, model, hints);
-  hint_at_samples(model, hints);
-  if (!description.simulation.locate_edges) hint_at_switches(model, hints);
+  hint_at_formulas(model, description.simulation.locate_edges, hints);
   return {hints.texts(), {}, bar_bending(description, model)};
 }
 

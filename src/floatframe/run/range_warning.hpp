@@ -20,12 +20,13 @@ enum class RangeLimit {
   branch,        ///< the mechanism passed a singular configuration, where it may branch
   half_turn,     ///< the rotation measured by a force element exceeded half a turn
   contact,       ///< a contact lasts for too few steps
-  formula        ///< the formula of an output has no value
+  formula,       ///< the formula of an output has no value
+  edges          ///< too many edges of forces to be located
 };
 /// In this order.
-inline constexpr std::array<const char*, 13> range_limit_names{
-    "displacement", "rotation", "spin",   "turn",      "phase",   "sine",   "table",
-    "damping",      "balance",  "branch", "half_turn", "contact", "formula"};
+inline constexpr std::array<const char*, 14> range_limit_names{
+    "displacement", "rotation", "spin",   "turn",      "phase",   "sine",    "table",
+    "damping",      "balance",  "branch", "half_turn", "contact", "formula", "edges"};
 
 struct RangeWarning {
   RangeLimit limit = RangeLimit::displacement;

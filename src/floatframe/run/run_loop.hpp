@@ -251,6 +251,8 @@ class Run {
     if (watch_) finish_watch(s);
     if (std::string why = steps_.undefined_outputs(); !why.empty())
       s.warnings.push_back({RangeLimit::formula, std::move(why)});
+    if (std::string why = steps_.crowded_edges(); !why.empty())
+      s.warnings.push_back({RangeLimit::edges, std::move(why)});
   }
 
   void finish_watch(RunSummary& s) {

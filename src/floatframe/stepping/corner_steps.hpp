@@ -1,6 +1,6 @@
 #pragma once
 // Divides steps at the corners of functions of time (time_corners.hpp) and at the instants of
-// sampled elements (model/sampling.hpp) within them, all of which are known:
+// sampled elements (model/sampling.hpp) within them, which are known or, of formulas, found:
 // the step to a corner ends with the values before it, accelerations and multipliers of the forces
 // after it are solved for, and the rest of the step follows. An interval much shorter than a step
 // is bridged by an explicit formula, with the accelerations of its middle: between two corners so
@@ -31,12 +31,13 @@ class CornerSteps {
 
   /// `step`: the nominal step size [s].
   CornerSteps(Formulation& formulation, Integrator& integrator, std::vector<TimeCorner> corners,
-              std::vector<SampleTicks> ticks, double step)
+              std::vector<SampleTicks> ticks, std::vector<FormulaOfTime> formulas, double step)
       : f_(formulation),
         integrator_(integrator),
         move_(formulation, integrator),
         corners_(std::move(corners)),
         ticks_(std::move(ticks)),
+        formulas_(std::move(formulas)),
         slack_(time_corner_width * step) {
     assert(step > 0.0);
     assert(std::is_sorted(corners_.begin(), corners_.end(),
@@ -48,7 +49,7 @@ class CornerSteps {
 
   /// True if a step of size h from time t contains a corner.
   bool within(double t, double h) const noexcept {
-    return next(listed_after(t), t, t + h).from < endless;
+    return next(listed_after(t), t, t + h, true).from < endless;
   }
 
   /// One step of size h. `smooth(size)` makes a step in which no function has a corner; `behind()`
@@ -61,7 +62,9 @@ class CornerSteps {
     const double end = state.t + h;
     StepAttempt total;
     auto listed = listed_after(state.t);
-    for (TimeCorner c; (c = next(listed, state.t, end)).from < endless;) {
+    int count = 0;
+    for (TimeCorner c; (c = next(listed, state.t, end, count < most_of_formulas)).from < endless;
+         ++count) {
       const double left = std::min(before(c.from, state.t, h), end);
       if (!reach(state, left, h, smooth, total)) return total;
       if (!pass(state, c, h, behind)) {
@@ -80,6 +83,8 @@ class CornerSteps {
 
  private:
   static constexpr double rounding = 1e-10;  ///< of time, as a fraction of a step
+  /// Corners in a step up to which formulas are looked at: others are sampled by the step.
+  static constexpr int most_of_formulas = 16;
   static constexpr double endless = std::numeric_limits<double>::infinity();
 
   enum class Made { nothing, moved, stepped };
@@ -89,17 +94,21 @@ class CornerSteps {
     return std::upper_bound(corners_.begin(), corners_.end(), t + slack_,
                             [](double x, const TimeCorner& c) { return x < c.to; });
   }
-  /// The next corner up to `end`: `listed`, or an instant of samples after t; none: at infinity. An
-  /// instant of samples at the end of a step does not divide it.
-  TimeCorner next(Listed listed, double t, double end) const noexcept {
+  /// The next corner up to `end`: `listed`, or an instant of samples or of a formula after t; none:
+  /// at infinity. An instant of samples at the end of a step does not divide it.
+  TimeCorner next(Listed listed, double t, double end, bool of_formulas) const noexcept {
     TimeCorner c{endless, endless};
     if (listed != corners_.end() && !(listed->from > end + slack_)) c = *listed;
-    for (const SampleTicks& x : ticks_) {
-      const double at = x.after(t + slack_);
-      if (!(at < end - slack_) || at > c.from + slack_) continue;
+    const auto take = [&](double at) {
+      if (at > c.from + slack_) return;
       c = at < c.from - slack_ ? TimeCorner{at, at}
                                : TimeCorner{std::min(at, c.from), std::max(at, c.to)};
-    }
+    };
+    for (const SampleTicks& x : ticks_)
+      if (const double at = x.after(t + slack_); at < end - slack_) take(at);
+    if (of_formulas)
+      for (const FormulaOfTime& x : formulas_)
+        if (const double at = formula_corner(x, t + slack_, end + slack_); at < endless) take(at);
     return c;
   }
 
@@ -159,6 +168,7 @@ class CornerSteps {
   ExplicitMove move_;
   std::vector<TimeCorner> corners_;
   std::vector<SampleTicks> ticks_;
+  std::vector<FormulaOfTime> formulas_;
   double slack_;  ///< [s]
   EdgeWatch watch_;
   Made made_ = Made::nothing;

@@ -13,7 +13,8 @@
 // A force that leaves its branch and returns within a step is looked for in the middle of the step,
 // on the cubic through both ends; if one is found there, half the step is made. A return within
 // half a step is not detected. A step with more than `most_edges` of them (a wheel resting on an
-// edge) is finished without division.
+// edge, friction that sticks) is finished without division: also its substeps, if what is left of
+// it does not converge.
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -56,9 +57,22 @@ class EdgeLocator {
       f_.hold_force_branch(forces_[k], here_[k].next);
   }
 
+  /// The beginning of a step, which `step` may make in parts, and its end at this state.
+  void begin() noexcept { undivided_ = false; }
+  void end(const State& state, long& passed) noexcept {
+    if (!undivided_) return;
+    hold(state);
+    ++passed;
+  }
+  /// The first force with too many edges in a step, and when; -1: none.
+  int crowded() const noexcept { return crowded_; }
+  double crowded_at() const noexcept { return crowded_at_; }
+
   /// One step of size h. If it is not accepted, the state is that of the last edge that was passed.
-  StepAttempt step(State& state, double h, long& edges, long& passed) noexcept {
+  StepAttempt step(State& state, double h, long& edges) noexcept {
     if (forces_.empty()) return integrator_.attempt(state, h);
+    if (undivided_) f_.hold_force_branches(free_);
+    if (undivided_) return integrator_.attempt(state, h);
     assert(h > 0.0 && state.q.size() == q_.size() && state.v.size() == x_.size());
     const double end = state.t + h;
     StepAttempt total;
@@ -89,10 +103,9 @@ class EdgeLocator {
       }
       if (count == most_edges) {
         return_to(state);
+        crowd(state.t);
         f_.hold_force_branches(free_);
         attempt(state, left, total);
-        hold(total.accepted() ? state : from_);
-        if (total.accepted()) ++passed;
         break;
       }
       if (!locate(state, h, left, span, total)) return total;
@@ -119,6 +132,13 @@ class EdgeLocator {
     assert(sides.size() == forces_.size());
     kinematics_at(f_, state);
     for (std::size_t k = 0; k < forces_.size(); ++k) sides[k] = f_.branch_side(forces_[k]);
+  }
+
+  void crowd(double t) noexcept {
+    undivided_ = true;
+    if (crowded_ >= 0 || found_ == none) return;
+    crowded_ = static_cast<int>(forces_[found_]);
+    crowded_at_ = t;
   }
 
   /// Looks in the middle of a step of size h, from `from_` to the state.
@@ -259,8 +279,9 @@ class EdgeLocator {
   State from_;
   VecX x_, q_, z_;
   std::size_t found_ = none;
-  double near_ = 0.0;
-  bool moved_ = false;
+  double near_ = 0.0, crowded_at_ = 0.0;
+  int crowded_ = -1;
+  bool moved_ = false, undivided_ = false;
 };
 
 }  // namespace floatframe

@@ -47,6 +47,23 @@ std::string Stepper::undefined_formula() {
   return fmt::format("step failed at t = {:.6g} s{}: {}", state_.t, substeps, why);
 }
 
+std::string Stepper::crowded_edges() const {
+  constexpr double few = 0.01;  // of all steps
+  const long passed = counters_.edges_passed;
+  if (!locator_ || !(static_cast<double>(passed) > few * static_cast<double>(counters_.steps)))
+    return {};
+  const int k = locator_->crowded();
+  const std::string where =
+      k < 0 ? ""
+            : fmt::format(": {} from t = {:.4g} s on", element_name(model().elements[k]),
+                          locator_->crowded_at());
+  return fmt::format(
+      "{} of {} steps had too many edges to locate and were finished without locate_edges{}; where "
+      "friction sticks at a jump of its law, give it the width of sign(x, w), or take the friction "
+      "of a joint or bristle_friction",
+      passed, counters_.steps, where);
+}
+
 std::string Stepper::undefined_outputs() const {
   std::string first;
   int others = 0;

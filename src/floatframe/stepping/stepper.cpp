@@ -78,8 +78,9 @@ void Stepper::find_corners(const SimulationDescription& o, const StepLimits& lim
 }
 
 void Stepper::locate_corners(const std::vector<TimeCorner>& corners) {
-  if (!corners.empty() || !ticks_.empty())
-    corners_.emplace(f_, *integrator_, corners, ticks_, grid_.step());
+  std::vector<FormulaOfTime> formulas = formulas_of_time(model());
+  if (!corners.empty() || !ticks_.empty() || !formulas.empty())
+    corners_.emplace(f_, *integrator_, corners, ticks_, std::move(formulas), grid_.step());
 }
 
 void Stepper::begin_at_start(bool locate_edges) {
@@ -171,12 +172,14 @@ bool Stepper::cover(double h) noexcept {
   asked_ = h;
   ticked_ = -TimeGrid::endless;
   undefined_ = false;
+  if (locator_) locator_->begin();
   take_inputs(h);
   if (has_thrown()) return false;
   const double end = state_.t + h;
   const bool divided = locator_ || (corners_ && corners_->within(state_.t, h));
   count(last_ = part(h, true));
   if (last_.accepted()) {
+    if (locator_) locator_->end(state_, counters_.edges_passed);
     sample_elements(h);
     if (undefined_) return false;
     take_samples();
@@ -201,6 +204,7 @@ bool Stepper::cover(double h) noexcept {
     }
   }
   state_.t = end;
+  if (locator_) locator_->end(state_, counters_.edges_passed);
   ++counters_.steps;
   return true;
 }
@@ -222,7 +226,7 @@ StepAttempt Stepper::part(double h, bool may_meet_corner) noexcept {
           return true;
         });
   if (!locator_) return integrator_->attempt(state_, h);
-  return locator_->step(state_, h, counters_.edges, counters_.edges_passed);
+  return locator_->step(state_, h, counters_.edges);
 }
 
 /// To be called where forces on fixed branches may jump.

@@ -110,6 +110,8 @@ class Stepper {
   /// Outputs by formulas, and `until`, that had no value at a sample: a sentence about the first
   /// one, without its full stop; empty: there is none.
   std::string undefined_outputs() const;
+  /// If many steps had more edges than are looked for: a sentence without its full stop; empty: no.
+  std::string crowded_edges() const;
   /// At the present state; brings the formulation there.
   Energies energies() noexcept;
   /// The cause of the last failed step, as a sentence. Moves the formulation.

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/formulas/formula_corners.hpp"
+#include "floatframe/formulas/formula_evaluation.hpp"
 #include "floatframe/math/piecewise_build.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/joint_motion.hpp"
@@ -17,6 +19,21 @@ namespace {
 /// Number of corners within two steps up to which they are located nevertheless.
 constexpr std::size_t max_located_corners = 4;
 constexpr double near_steps = 2.0;
+
+bool has_corners(const Formula& f) {
+  return std::ranges::any_of(f.kinks, [](const FormulaKink& k) { return k.between_pieces(); });
+}
+
+/// Just before and at a corner.
+struct FormulaSides {
+  PiecewisePolynomial::Value left, right;
+};
+FormulaSides sides_of(const Formula& f, double at) noexcept {
+  constexpr double just = 4.0 * std::numeric_limits<double>::epsilon();
+  return {formula_at(f, at - just * (1.0 + std::abs(at))), formula_at(f, at)};
+}
+
+bool near(double a, double b) noexcept { return std::abs(b - a) <= 1e-9 * (1.0 + std::abs(a)); }
 
 /// One instant of a function of time.
 struct Kink {
@@ -116,6 +133,24 @@ void add_formula(const Forcing& f, double end, const TimeCornerOptions& o, Kinks
   kinks.velocity_at = found.slope->at;
 }
 
+/// Those of a formula that are located, at the beginning of a run: for notes only.
+std::vector<Kink> kinks_of_formula(const Forcing& forcing, double begin, double end, double step) {
+  constexpr int most_steps = 20'000;
+  std::vector<Kink> out;
+  const Formula* formula = forcing.function->formula.get();
+  if (!formula || !has_corners(*formula)) return out;
+  double t = begin + time_corner_width * step;
+  for (int k = 0; k < most_steps && t < end; ++k) {
+    const double to = std::min(t + step, end), at = piece_change(*formula, t, to);
+    t = std::min(at, to);
+    if (!(at <= to)) continue;
+    const FormulaSides side = sides_of(*formula, at);
+    if (forcing.kind != Forcing::Kind::motion || near(side.left.df, side.right.df))
+      out.push_back({at, !near(side.left.f, side.right.f)});
+  }
+  return out;
+}
+
 bool ends_a_step(double at, const TimeCornerOptions& o) {
   const double steps = (at - o.begin) / o.step;
   return std::abs(steps - std::round(steps)) < time_corner_width;
@@ -194,6 +229,22 @@ std::vector<Forcing> all_forcing(const Model& model) {
   return out;
 }
 
+std::vector<FormulaOfTime> formulas_of_time(const Model& model) {
+  std::vector<FormulaOfTime> out;
+  for (const Forcing& f : all_forcing(model))
+    if (f.function->formula && has_corners(*f.function->formula))
+      out.push_back({f.function->formula, f.kind == Forcing::Kind::motion});
+  return out;
+}
+
+double formula_corner(const FormulaOfTime& f, double from, double to) noexcept {
+  const double at = piece_change(*f.formula, from, to);
+  if (!f.motion || !(at <= to)) return at;
+  const FormulaSides side = sides_of(*f.formula, at);
+  const bool smooth = near(side.left.f, side.right.f) && near(side.left.df, side.right.df);
+  return smooth ? at : std::numeric_limits<double>::infinity();
+}
+
 TimeCorners time_corners(const Model& model, const TimeCornerOptions& o) {
   TimeCorners out;
   std::vector<double> times;
@@ -217,12 +268,13 @@ TimeCorners time_corners(const Model& model, const TimeCornerOptions& o) {
       if (dense > most) densest = f.name;
       most = std::max(most, dense);
     }
-    const auto missed = std::find_if(k.located.begin(), k.located.end(), [&](const Kink& x) {
-      return x.jump || !ends_a_step(x.at, o);
-    });
-    if (missed != k.located.end() && (++functions == 1 || missed->at < first)) {
-      first = missed->at;
-      earliest = f.name;
+    for (const std::vector<Kink>& list : {k.located, kinks_of_formula(f, o.begin, end, o.step)}) {
+      const auto missed = std::find_if(
+          list.begin(), list.end(), [&](const Kink& x) { return x.jump || !ends_a_step(x.at, o); });
+      if (missed != list.end() && (++functions == 1 || missed->at < first)) {
+        first = missed->at;
+        earliest = f.name;
+      }
     }
     // Steps treat corners at most a rounding error after the beginning as before it.
     const double first_step = o.begin + 2.0 * time_corner_width * o.step;

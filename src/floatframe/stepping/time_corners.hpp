@@ -45,6 +45,16 @@ struct TimeCorners {
 
 TimeCorners time_corners(const Model& model, const TimeCornerOptions& options);
 
+/// A formula of the time with corners or jumps, whose instants are found as steps come to them; of
+/// a motion those that leave its velocity as it is.
+struct FormulaOfTime {
+  SharedFormula formula;
+  bool motion = false;
+};
+std::vector<FormulaOfTime> formulas_of_time(const Model& model);
+/// The first one in (from, to]; infinite: none. Step time.
+double formula_corner(const FormulaOfTime& f, double from, double to) noexcept;
+
 /// The prescribed functions of time of a model.
 struct Forcing {
   enum class Kind { load, target, motion } kind = Kind::load;

@@ -2,6 +2,7 @@
 // or q and qdot of a joint with one coordinate (port_measures.hpp). In steps and for exact
 // derivatives its slopes are those that the function gives, else central differences over
 // h = 1e-6 (1 + |x|): their error is h^2 F'''/6 from the curvature and 1e-16 F/h from rounding.
+// The switches of a formula are its branches (formula_branches.hpp).
 //   rows         F_x g g^T and the damping F_v g g^T, along a line F/s (I - n n^T) too
 //   energy       none: its power is that of an actuator
 #include <fmt/format.h>
@@ -11,8 +12,8 @@
 #include <stdexcept>
 
 #include "floatframe/description/sentences.hpp"
-#include "floatframe/formulas/formula_evaluation.hpp"
 #include "floatframe/model/element_kind.hpp"
+#include "floatframe/model/formula_branches.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/port_measures.hpp"
 
@@ -23,6 +24,26 @@ namespace {
 struct ForceLawSlopes {
   double f = std::numeric_limits<double>::quiet_NaN(), dx = 0.0, dv = 0.0;
 };
+
+template <class Number>
+Number force_law_formula(const Formula& f, const Number& x, const Number& v, double t,
+                         FormulaSwitches& switches, FormulaFault& fault) noexcept {
+  const auto operand = [&](int i) -> Number {
+    const FormulaReference& r = f.references[i];
+    return r.is_time() ? Number(t) : r.name == "x" ? x : v;
+  };
+  return evaluate_formula<Number>(f, operand, switches, fault);
+}
+
+ForceLawSlopes force_law_slopes(const Formula& f, double x, double v, double t,
+                                std::int64_t branch) noexcept {
+  using Variable = DualNumber<2>;
+  FormulaSwitches switches = switches_of_branch(branch);
+  FormulaFault fault;
+  const Variable y =
+      force_law_formula(f, Variable::variable(x, 0), Variable::variable(v, 1), t, switches, fault);
+  return {y.v, y.d[0], y.d[1]};
+}
 
 /// Of the derivative by x, from f(x +- h).
 template <class Function>
@@ -57,8 +78,10 @@ ForceLawSlopes force_law_slopes(const ForceFunction& law, double x, double v, do
 template <class S>
 void force_law_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
   const auto force = [&](const S& x, const S& v, ForceLawSlopes& y) {
-    y = force_law_slopes(in.template keys<ForceLaw>().law, value_of(x), value_of(v), in.t,
-                         out.thrown);
+    const ForceFunction& law = in.template keys<ForceLaw>().law;
+    const Formula* formula = law.formula().get();
+    y = formula ? force_law_slopes(*formula, value_of(x), value_of(v), in.t, in.branch)
+                : force_law_slopes(law, value_of(x), value_of(v), in.t, out.thrown);
     return S(chained(y.f, y.dx, x) + chained(0.0, y.dv, v));
   };
   out.thrown = nullptr;
@@ -80,27 +103,30 @@ FLOATFRAME_LAW(force_law)
 
 namespace {
 
-/// Of a law by a formula, at the length or coordinate and rate of the last evaluation.
+/// Of a law by a formula, at the present length or coordinate and rate.
+void evaluate_force_law(const Ports& in, FormulaSwitches& switches, FormulaFault& fault) noexcept {
+  const Formula& f = *in.keys<ForceLaw>().law.formula();
+  if (in.element.coordinates.empty()) {
+    const LineMeasure<double> line = line_measure(in);
+    force_law_formula(f, line.length, line.rate, in.t, switches, fault);
+  } else {
+    const AxisMeasure<double> m = coordinate_measure(in);
+    force_law_formula(f, m.s, m.rate, in.t, switches, fault);
+  }
+}
+
+BranchSide force_law_side(const Ports& in) noexcept {
+  return formula_branch_side(in.branch, [&](FormulaSwitches& switches, FormulaFault& fault) {
+    evaluate_force_law(in, switches, fault);
+  });
+}
+
 std::string force_law_complaint(const Ports& in) {
   const SharedFormula& f = in.keys<ForceLaw>().law.formula();
   if (!f) return "";
-  double x = 0.0, v = 0.0;
-  if (in.element.coordinates.empty()) {
-    const LineMeasure<double> line = line_measure(in);
-    x = line.length, v = line.rate;
-  } else {
-    const AxisMeasure<double> m = coordinate_measure(in);
-    x = m.s, v = m.rate;
-  }
-  FormulaSwitches switches;
+  FormulaSwitches switches = switches_of_branch(in.branch);
   FormulaFault fault;
-  evaluate_formula<double>(
-      *f,
-      [&](int i) {
-        const FormulaReference& r = f->references[i];
-        return r.is_time() ? in.t : r.name == "x" ? x : v;
-      },
-      switches, fault);
+  evaluate_force_law(in, switches, fault);
   return fault_text(*f, fault);
 }
 
@@ -187,6 +213,7 @@ constinit const ElementKind force_law_element = {
     .along_line = true,
     .complaint = force_law_complaint,
     .dual = force_law_law<Dual>,
+    .side = force_law_side,
     .picture = force_law_picture,
     .regimes = force_law_regimes,
     .example = force_law_example};

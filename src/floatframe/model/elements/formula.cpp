@@ -1,12 +1,9 @@
 // The value of a formula of the motion, of inputs, of results of other elements and of the time
 // (formulas/formula.hpp). What it refers to is found when the model is built (build_formulas.cpp).
-// Its switches are its branches: held ones move their digits, those that the held ones do not
-// reach are open.
-#include <algorithm>
-
-#include "floatframe/formulas/formula_evaluation.hpp"
+// Its switches are its branches (formula_branches.hpp).
 #include "floatframe/model/axis_measure.hpp"
 #include "floatframe/model/element_kind.hpp"
+#include "floatframe/model/formula_branches.hpp"
 #include "floatframe/model/output_kind.hpp"
 
 namespace floatframe {
@@ -54,28 +51,20 @@ S formula_value(const PortsOf<S>& in, FormulaSwitches& switches, FormulaFault& f
 
 template <class S>
 void formula_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
-  FormulaSwitches switches;
-  switches.held = std::max<std::int64_t>(in.branch, 0);
+  FormulaSwitches switches = switches_of_branch(in.branch);
   FormulaFault fault;
   out.force = formula_value(in, switches, fault);
 }
 
 BranchSide formula_side(const Ports& in) noexcept {
-  FormulaSwitches switches;
-  FormulaFault fault;
-  switches.held = std::max<std::int64_t>(in.branch, 0);
-  formula_value(in, switches, fault);
-  if (in.branch == free_branch || switches.crossed < 0) return {-1.0, switches.present};
-  FormulaSwitches across;  // the others where they are, as far as they are reached
-  across.held = FormulaSwitches::with(switches.present, switches.crossed, switches.next);
-  formula_value(in, across, fault);
-  return {switches.beyond, across.present};
+  return formula_branch_side(in.branch, [&](FormulaSwitches& switches, FormulaFault& fault) {
+    formula_value(in, switches, fault);
+  });
 }
 
 std::string formula_complaint(const Ports& in) {
-  FormulaSwitches switches;
+  FormulaSwitches switches = switches_of_branch(in.branch);
   FormulaFault fault;
-  switches.held = std::max<std::int64_t>(in.branch, 0);
   formula_value(in, switches, fault);
   return fault_text(*in.keys<FormulaValue>().formula, fault);
 }
