@@ -1,4 +1,6 @@
 // Sentences about laws and functions of time.
+#include <fmt/format.h>
+
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/core/number_rule.hpp"
 #include "floatframe/description/sentences.hpp"
@@ -33,6 +35,13 @@ Complaint period(const TimeFunction& f, bool may_jump) {
 }
 
 std::string missing_formula() { return "found no formula, expected one"; }
+
+std::string formula_jumps(double by, double at) {
+  return fmt::format(
+      "found a jump by {:.6g} at t = {:.9g} s, expected a function without jumps: a motion cannot "
+      "jump",
+      by, at);
+}
 
 std::string formula_not_of_time(const Formula& formula) {
   for (const FormulaReference& r : formula.references)

@@ -61,6 +61,8 @@ std::string element_without(const std::string& type, SignalSource source);
 std::string missing_formula();
 /// A motion has another reference than the time.
 std::string formula_not_of_time(const Formula& formula);
+/// A motion by a formula jumps there.
+std::string formula_jumps(double by, double at);
 std::string formula_and_source(SignalSource source);
 /// What a formula refers to is not there; a suggestion follows.
 std::string formula_name(const std::string& name);

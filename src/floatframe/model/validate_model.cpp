@@ -24,6 +24,7 @@ void validate(const ModelDescription& d, ErrorList& errors) {
   validation::elements(d, names, errors);
   validation::amplitudes(d, names, errors);
   validation::outputs(d, names, errors);
+  validation::motions(d, errors);
   validate(d.simulation, errors);
 }
 

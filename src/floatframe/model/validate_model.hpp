@@ -17,6 +17,8 @@ void joint_values(const JointDescription& joint, const Entity& entity);
 
 void joints(const ModelDescription& d, const Names& names, ErrorList& errors);
 void elements(const ModelDescription& d, const Names& names, ErrorList& errors);
+/// Of joints, rods and couplings.
+void motions(const ModelDescription& d, ErrorList& errors);
 void outputs(const ModelDescription& d, const Names& names, ErrorList& errors);
 
 }  // namespace validation

@@ -1,9 +1,11 @@
 #include "floatframe/stepping/stepper.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "floatframe/core/plural.hpp"
 #include "floatframe/description/sentences.hpp"
+#include "floatframe/loops/run_error.hpp"
 
 namespace floatframe {
 namespace {
@@ -65,6 +67,10 @@ void Stepper::find_corners(const SimulationDescription& o, const StepLimits& lim
   TimeCorners found = time_corners(
       model(),
       {.step = o.step, .begin = begin(), .duration = limits.duration, .all = o.locate_edges});
+  // What is stepped without an end may not get there.
+  if (!found.jumps.empty() && std::isfinite(limits.duration))
+    throw RunError(ErrorCode::contradiction, found.jumps.front());
+  for (std::string& note : found.jumps) start_.add_note(std::move(note));
   if (!limits.bounded) locate_corners(found.located);
   for (std::string& note : found.velocity_jumps) start_.add_note(std::move(note));
   for (std::string& note : limits.bounded ? found.passed : found.dense)

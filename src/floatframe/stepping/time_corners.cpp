@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "floatframe/description/sentences.hpp"
+#include "floatframe/formulas/formula_corners.hpp"
 #include "floatframe/math/piecewise_build.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/joint_motion.hpp"
@@ -102,6 +104,18 @@ Kinks kinks_of(const Forcing& forcing, double begin, double end, double step) {
   return out;
 }
 
+/// Jumps and corners of the formula of a motion.
+void add_formula(const Forcing& f, double end, const TimeCornerOptions& o, Kinks& kinks,
+                 TimeCorners& out) {
+  const FormulaCorners found = formula_corners(*f.function->formula, o.begin, end, o.step);
+  if (found.jump)
+    out.jumps.push_back(f.name + ": " + sentences::formula_jumps(found.jump->size, found.jump->at));
+  kinks.velocity_jumps += found.slopes;
+  if (!found.slope || std::abs(found.slope->size) <= std::abs(kinks.velocity_jump)) return;
+  kinks.velocity_jump = found.slope->size;
+  kinks.velocity_at = found.slope->at;
+}
+
 bool ends_a_step(double at, const TimeCornerOptions& o) {
   const double steps = (at - o.begin) / o.step;
   return std::abs(steps - std::round(steps)) < time_corner_width;
@@ -195,6 +209,7 @@ TimeCorners time_corners(const Model& model, const TimeCornerOptions& o) {
           fmt::format("{} repeats too often: steps are divided at its corners up "
                       "to t = {:.6g} s, after that it is sampled at their ends",
                       f.name, k.until));
+    if (f.kind == Forcing::Kind::motion && f.function->formula) add_formula(f, end, o, k, out);
     if (k.velocity_jumps > 0) out.velocity_jumps.push_back(velocity_note(f, k));
     const std::size_t dense = o.all ? 0 : thin_out(k.located, o);
     if (dense > 0) {

@@ -40,6 +40,7 @@ struct TimeCorners {
   /// Sentences: motions whose velocity jumps; tables that are too dense; for undivided steps,
   /// corners within a step. Corners at the end of a step are not mentioned.
   std::vector<std::string> velocity_jumps, dense, passed;
+  std::vector<std::string> jumps;  ///< of motions by formulas
 };
 
 TimeCorners time_corners(const Model& model, const TimeCornerOptions& options);
