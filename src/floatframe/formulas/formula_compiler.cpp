@@ -179,9 +179,10 @@ class Compiler {
     }
     return Type::truth;
   }
-  /// A jump whose target is set by `arrive`.
+  /// A jump whose target is set by `arrive`. What stands behind it begins without the condition, or
+  /// without the result of the branch that has jumped.
   std::size_t leap(const SyntaxNode& node, FormulaOp op) {
-    add(node, op, op == FormulaOp::jump_unless ? 2 : 1, 0);
+    add(node, op, 2, 0);
     return out_.steps.size() - 1;
   }
   void arrive(std::size_t from) {
