@@ -150,6 +150,17 @@ TEST(Formula, DerivativesInTime) {
   }
 }
 
+// The second derivative of x^n, 1 < n < 2, is infinite at zero.
+TEST(Formula, RootsAtZero) {
+  for (const char* const text : {"(t^2)^1.5", "t^1.5", "sqrt(t)", "(1 - cos(t))^1.25 + t^3"}) {
+    const PiecewisePolynomial::Value v = formula_at(*formula(text), 0.0);
+    EXPECT_EQ(v.f, 0.0) << text;
+    EXPECT_EQ(v.df, 0.0) << text;
+    EXPECT_EQ(v.ddf, 0.0) << text;
+  }
+  EXPECT_NEAR(formula_at(*formula("(t^2)^1.5"), 0.1).ddf, 0.6, 1e-14);
+}
+
 /// A random formula of x, y and z.
 std::string random_formula(std::mt19937& random, int depth) {
   const auto number = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };

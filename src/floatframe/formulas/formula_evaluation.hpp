@@ -140,9 +140,10 @@ class FormulaMachine {
     if (fault_.kind == FormulaFault::Kind::none) fault_ = {kind, at_, argument};
   }
   void take(int n, const FunctionValue& g) noexcept { leave(n, composed(g, operand(n, 0))); }
-  /// Where it has no slope, that is taken as zero, as by `sqrt` of dual numbers.
+  /// Where it has no slope or curvature, that is taken as zero, as by `sqrt` of dual numbers.
   void take_root(const FunctionValue& g) noexcept {
-    take(1, std::isfinite(g.df) ? g : FunctionValue{g.f});
+    const bool slope = std::isfinite(g.df), bend = slope && std::isfinite(g.ddf);
+    take(1, {g.f, slope ? g.df : 0.0, bend ? g.ddf : 0.0});
   }
 
   void step(const FormulaStep& s) noexcept {
