@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace floatframe::test {
 namespace {
@@ -128,6 +129,37 @@ TEST(StepDifferences, NumbersThatAreNotFinite) {
   EXPECT_EQ(v.outputs[0].convergence, Convergence::round_off);
   EXPECT_TRUE(std::isinf(v.outputs[1].largest));
   EXPECT_NE(v.outputs[1].convergence, Convergence::regular);
+}
+
+// The time of a crossing at 0.4 + step^2 / 40 s, which is beside a row.
+TEST(StepDifferences, NumbersThatAreThereOneRowLater) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const auto compare = [&](const auto& value) {
+    const std::vector<Column> outputs{{"crossing", "s"}, {"never", "s"}, {"x", "s"}};
+    const ResultTable one = rows(outputs, h, 1.0, value), half = rows(outputs, h / 2, 1.0, value),
+                      quarter = rows(outputs, h / 4, 1.0, value);
+    StepDifferences d(rows_of(one), half, 1e-6 * h, {1, 1, 0});
+    d.take(quarter.data);
+    return d.result();
+  };
+  const Verification v = compare([&](std::size_t c, double t, double step) {
+    const double crossing = 0.4 - h * h / 100 + step * step / 40;
+    if (c == 2) return t + t * step * step;
+    return c == 0 && t >= crossing ? crossing : none;
+  });
+  EXPECT_EQ(v.outputs[0].convergence, Convergence::regular);
+  EXPECT_NEAR(v.outputs[0].order, 2.0, 1e-9);
+  EXPECT_NEAR(v.outputs[0].error, h * h / 40, 1e-12);
+  EXPECT_EQ(v.outputs[1].convergence, Convergence::round_off);
+  EXPECT_EQ(v.outputs[1].range, 0.0);
+  EXPECT_NEAR(v.outputs[2].order, 2.0, 1e-9);
+  // The run does not cross at all, the others do.
+  const Verification missed = compare([&](std::size_t c, double t, double step) {
+    return c == 0 && t >= 0.5 && step < h ? 0.5 : c == 2 ? t : none;
+  });
+  EXPECT_EQ(missed.outputs[0].convergence, Convergence::none);
+  EXPECT_EQ(missed.outputs[0].largest, std::numeric_limits<double>::infinity());
+  EXPECT_NEAR(missed.outputs[0].at, 0.5, 1e-12);
 }
 
 }  // namespace

@@ -25,9 +25,20 @@ NextRow rows_of(const ResultTable& table) {
   };
 }
 
-StepDifferences::StepDifferences(NextRow run, const ResultTable& half, double close)
+StepDifferences::StepDifferences(NextRow run, const ResultTable& half, double close,
+                                 std::vector<char> latched)
     : run_(std::move(run)), half_(half), close_(close), now_(run_()) {
   outputs_.resize(half.columns.size() - 1);
+  for (std::size_t k = 0; k < latched.size() && k < outputs_.size(); ++k)
+    outputs_[k].latched = latched[k];
+}
+
+/// `apart`, of a latched output only where both have a number.
+double StepDifferences::difference(bool latched, double a, double b, double t,
+                                   double& missing) noexcept {
+  const bool waits = latched && std::isnan(a) != std::isnan(b);
+  missing = waits ? std::min(missing, t) : no_time;
+  return waits ? 0.0 : apart(a, b);
 }
 
 /// Compares the current row of the run and advances to the next.
@@ -46,14 +57,16 @@ void StepDifferences::row(const double* quarter) {
     g.low = std::min(g.low, x);
     g.high = std::max(g.high, x);
     if (!common) continue;
-    const double y = half_.at(half_row_, k + 1), d = apart(x, y);
+    const double y = half_.at(half_row_, k + 1), d = difference(g.latched, x, y, t, g.missing);
     if (d > g.largest) {
       g.largest = d;
       g.at = t;
     }
     if (!quarter) continue;
+    const double second = difference(g.latched, y, quarter[k + 1], t, g.missing_second);
+    if (g.latched && std::isnan(x + y + quarter[k + 1])) continue;
     g.first = std::max(g.first, d);
-    g.second = std::max(g.second, apart(y, quarter[k + 1]));
+    g.second = std::max(g.second, second);
   }
   now_ = run_();
 }
@@ -74,10 +87,17 @@ Verification StepDifferences::result() {
   while (now_) row(nullptr);
   std::map<std::string, double> largest;  // by unit
   for (std::size_t k = 0; k < outputs_.size(); ++k) {
-    const Gathered& g = outputs_[k];
+    Gathered& g = outputs_[k];
+    if (g.missing < no_time) {
+      g.largest = g.first = std::numeric_limits<double>::infinity();
+      g.at = g.missing;
+    }
+    if (g.missing_second < no_time) g.second = std::numeric_limits<double>::infinity();
     const Column& column = half_.columns[k + 1];
-    const double magnitude = std::max(std::abs(g.low), std::abs(g.high));
-    found_.outputs.push_back({column, g.largest, g.at, g.first, g.second, g.high - g.low, magnitude,
+    const bool some = g.low <= g.high;  // numbers
+    const double magnitude = some ? std::max(std::abs(g.low), std::abs(g.high)) : 0.0;
+    const double range = some ? g.high - g.low : 0.0;
+    found_.outputs.push_back({column, g.largest, g.at, g.first, g.second, range, magnitude,
                               of_three_ > 1 ? Convergence::regular : Convergence::unknown});
     largest[column.unit] = std::max(largest[column.unit], magnitude);
   }
@@ -94,9 +114,9 @@ void estimate(VerifiedOutput& o, double noise) noexcept {
   if (o.largest <= noise) o.convergence = Convergence::round_off;
   if (o.convergence != Convergence::regular) return;
   const double p = std::log2(o.first / o.second);
-  if (p > largest_order)
+  if (p > largest_order && std::isfinite(o.first))
     o.convergence = Convergence::too_coarse;
-  else if (!(p >= least_order))
+  else if (!(p >= least_order) || !std::isfinite(o.first))
     o.convergence = Convergence::none;
   if (o.convergence == Convergence::none) o.error = std::max(o.largest, o.second);
   if (o.convergence != Convergence::regular) return;

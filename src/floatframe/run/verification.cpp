@@ -6,6 +6,7 @@
 
 #include "floatframe/core/text_pieces.hpp"
 #include "floatframe/model/element_evaluation.hpp"
+#include "floatframe/model/output_kind.hpp"
 #include "floatframe/run/run.hpp"
 
 namespace floatframe {
@@ -105,7 +106,11 @@ Verification verify_steps(const Model& model, const SimulationDescription& descr
   Verification v;
   RunSummary quarter;
   if (half.table.rows() > 0) {
-    StepDifferences differences(std::move(rows), half.table, 1e-6 * description.step);
+    std::vector<char> crossings;
+    for (const Output& o : model.outputs)
+      crossings.push_back(output_kind(o.type).of == OutputOf::crossing);
+    StepDifferences differences(std::move(rows), half.table, 1e-6 * description.step,
+                                std::move(crossings));
     options.rows = [&](const std::vector<Column>&, std::span<const double> numbers) {
       differences.take(numbers);
     };
