@@ -1,6 +1,7 @@
 // Runs that end where a formula crosses zero, and times of first crossings: against motions that
 // the steps make exactly, and against the closed form with the order of the step; undisturbed
 // motions, saved and resumed runs, no allocation.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -52,6 +53,31 @@ TEST_P(Until, AFallEndsAtTheGround) {
     EXPECT_NEAR(at_end(r, 3), std::sqrt(exact * exact - 2.0 / 9.81), 1e-9);
     EXPECT_TRUE(std::isnan(at_end(r, 4)));
     EXPECT_TRUE(std::isnan(r.table.at(0, 3)));
+  }
+}
+
+// A value of a sampled element jumps at its instant: within a step, at the end of one, shortly
+// behind the beginning of one.
+TEST_P(Until, SampledSignalsCrossAtTheirInstants) {
+  for (const double step : {0.07, 0.1, 0.02995, 0.001}) {
+    const Model model = model_of(fmt::format(R"(
+bodies: {{b: {{position: [0, 0, 0], rigid: {{mass: 1}}}}}}
+joints: {{z: {{type: prismatic, child: b, at: [0, 0, 0], axis: z}}}}
+controllers:
+  hold: {{type: zero_order_hold, input: {{polynomial: [0, 1]}}, period: 0.1}}
+  late: {{type: zero_order_hold, input: {{polynomial: [0, 1]}}, period: 0.1, delay: 0.04}}
+outputs:
+  first: {{first_crossing: 'controller(hold) - 0.15'}}
+  second: {{first_crossing: 'controller(late) - 0.15'}}
+simulation: {{step: {}, duration: 1, until: 'controller(hold) - 0.25'}}
+)",
+                                             step));
+    const RunResult r = completed_run(model, with(model.simulation, GetParam()));
+    ASSERT_TRUE(r.summary.crossed_at.has_value()) << step;
+    EXPECT_NEAR(*r.summary.crossed_at, 0.3, 1e-14) << step;
+    EXPECT_NEAR(at_end(r, 0), 0.3, 1e-14) << step;
+    EXPECT_NEAR(at_end(r, 1), 0.2, 1e-14) << step;
+    EXPECT_NEAR(at_end(r, 2), 0.24, 1e-14) << step;
   }
 }
 

@@ -4,8 +4,8 @@
 //   error of the run at h: e = D1 2^p / (2^p - 1)    (Richardson's extrapolation, x_h - x = C h^p)
 // D1 and D2 of the order are over the instants common to all three runs, D1 of the error over those
 // of the first two. A time of a crossing is not a number before, and one run may cross between two
-// rows of the other: such outputs are compared where both have one, and in the last row. Source: P. J. Roache, Verification and Validation in Computational Science,
-// 1998, chapter 5.
+// rows of the other: such outputs are compared where both have one, and in the last row. Source:
+// P. J. Roache, Verification and Validation in Computational Science, 1998, chapter 5.
 #include <functional>
 #include <limits>
 #include <span>

@@ -4,7 +4,9 @@
 // a bisection), until a bracket of `close` is left: the crossing is that of the scheme of the
 // steps, not of an interpolation. The step is then made again, to its end or to the zero of
 // `until`, behind which the sign has changed. Substeps, edges and corners are those of any step; a
-// length below `shortest` is covered by an explicit move with the acceleration of its middle. Where
+// length below `shortest` is covered by an explicit move with the acceleration of its middle. A
+// step that ends a little before an instant of sampled elements takes their values of the instant:
+// what crosses zero exactly where that begins does so at the instant. Where
 // the work of a step is bounded, a secant through its ends gives the time. A formula that crosses
 // zero and comes back within a step is not seen.
 #include <algorithm>
@@ -125,6 +127,17 @@ double Stepper::crossing_in(const WatchedFormula& w, double h, double end) noexc
       idle = 1;
     }
   }
+  return sampled_instant(low, high);
+}
+
+/// If the values of an instant of samples begin to count in the bracket: the instant; else `high`.
+double Stepper::sampled_instant(double low, double high) const noexcept {
+  const double begin = before_->state.t, width = time_corner_width * grid_.step();
+  const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * std::abs(begin + high);
+  for (const SampleTicks& x : ticks_) {
+    const double at = x.after(begin + high), edge = at - width;
+    if (begin + low <= edge + rounding && edge <= begin + high + rounding) return at - begin;
+  }
   return high;
 }
 
@@ -149,6 +162,10 @@ bool Stepper::reach(double dt, double h) noexcept {
   state_.zd += middle * (zd_end_ - state_.zd);
   (*move_)(state_, dt, h);
   integrator_->restart(state_, h);
+  if (dt > 2.0 * time_corner_width * grid_.step()) {  // else they may be those of the beginning
+    ticked_ = -TimeGrid::endless;
+    sample_elements(h);
+  }
   take_samples();
   ++counters_.steps;
   return true;

@@ -156,6 +156,7 @@ class Stepper {
   double value_of(const WatchedFormula& w) noexcept;
   bool look_for_crossings(const PlannedStep& step) noexcept;
   double crossing_in(const WatchedFormula& w, double h, double end) noexcept;
+  double sampled_instant(double low, double high) const noexcept;
   void return_to_begin() noexcept;
   bool reach(double dt, double h) noexcept;
 
