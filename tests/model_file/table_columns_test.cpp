@@ -116,6 +116,10 @@ TEST_F(TableColumns, ErrorsSayWhichColumnsThereAre) {
   EXPECT_EQ(errors(csv, "{column: Fx}"), "model.yaml:4:55: forces.f.magnitude.table: missing");
   EXPECT_EQ(errors("t,F,G\n0,1,2\n1,,3\n", "{file: t.csv, column: F}"), "t.csv:3:1: out_of_range");
   EXPECT_EQ(errors("t,F,G\n0,1,2\n1,3\n", "{file: t.csv, column: F}"), "t.csv:3:1: wrong_count");
+  EXPECT_EQ(errors("t,F,F\n0,1,2\n1,4,5\n", "{file: t.csv, column: F}"),
+            "model.yaml:4:84: forces.f.magnitude.table.column: contradiction");
+  EXPECT_EQ(errors("t,F [N],F [kN]\n0,1,2\n1,4,5\n", "{file: t.csv, column: F}"),
+            "model.yaml:4:84: forces.f.magnitude.table.column: contradiction");
   EXPECT_EQ(errors("7\n8\n", "t.csv"), "model.yaml:4:62: forces.f.magnitude.table: wrong_count");
 }
 
@@ -127,8 +131,12 @@ TEST(CsvFile, IsParsedOnceWhateverItsColumns) {
   EXPECT_EQ(csv.at(0, 1), 1.5);
   EXPECT_TRUE(std::isnan(csv.at(1, 1)));
   EXPECT_EQ(csv.cell(1, 1), "x");
-  EXPECT_EQ(csv.column("time"), 0u);
-  EXPECT_EQ(csv.column("tim"), 2u);
+  using Places = std::vector<std::size_t>;
+  EXPECT_EQ(csv.columns_of("time"), Places{0});
+  EXPECT_EQ(csv.columns_of("tim"), Places{});
+  const CsvFile twice = parse_csv("t,F,F,M [N],M [kN],M\n0,1,2,3,4,5\n", {});
+  EXPECT_EQ(twice.columns_of("F"), (Places{1, 2}));
+  EXPECT_EQ(twice.columns_of("M"), Places{5});
 }
 
 }  // namespace

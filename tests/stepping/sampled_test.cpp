@@ -9,6 +9,7 @@
 #include "floatframe/linear/linear_system.hpp"
 #include "floatframe/linear/linearize.hpp"
 #include "floatframe/math/dense.hpp"
+#include "floatframe/start/check.hpp"
 #include "floatframe/start/statics.hpp"
 #include "floatframe/stepping/stepping.hpp"
 #include "support/allocation_counter.hpp"
@@ -332,7 +333,10 @@ simulation: {step: 0.001, duration: 0.3, start: equilibrium}
 TEST(SampledErrors, APeriodOfAFiftiethOfAStep) {
   const Model model =
       model_of(sampled_box("  b: {type: zero_order_hold, input: 1, period: 1.0e-4}\n"));
-  EXPECT_EQ(error_of([&] { Simulation s(model, {}); }), "out_of_range");
+  // With the place of the period, also by a check.
+  EXPECT_TRUE(contains(error_of([&] { Simulation s(model, {}); }), "model.yaml:"));
+  EXPECT_TRUE(contains(error_of([&] { check(model); }), "model.yaml:"));
+  EXPECT_NO_THROW(Simulation(model, {.step = 1e-3}));
 }
 
 }  // namespace

@@ -64,6 +64,7 @@ bool ModelBuilder::add_element(const ElementDescription& e) {
   ElementBuild b(*this, e);
   const ElementKind& kind = element_kind(e.type());
   if (!kind.build(b)) return false;
+  if (b.element.clock.ticks()) b.element.clock.mark = e.origin.of("period");
   element_names[index_of(kind.list)].add(e.name);
   model.elements.push_back(std::move(b.element));
   return true;

@@ -150,6 +150,7 @@ struct OutputFormula {
 struct SampleClock {
   double first = 0.0, period = 0.0, delay = 0.0;  ///< [s]; no period: the element is not sampled
   int waiting = 0;                                ///< values that do not act yet
+  SourceMark mark = {};                           ///< of its key
   bool ticks() const noexcept { return period > 0.0; }
 };
 

@@ -83,6 +83,14 @@ std::string held_samples_note(const Model& model) {
   return names.empty() ? "" : sentences::held_samples(names);
 }
 
+void require_samples_of_steps(const Model& model, double step) {
+  for (const Element& e : model.elements)
+    if (e.clock.ticks() && e.clock.period < shortest_part * step)
+      throw InputError(
+          ErrorCode::out_of_range, e.clock.mark,
+          sentences::step_over_samples(element_name(e), e.clock.period, step, shortest_part));
+}
+
 void require_ticks_at_steps(const Model& model, double begin, double step) {
   constexpr double rounding = 1e-12;
   for (const Element& e : model.elements) {

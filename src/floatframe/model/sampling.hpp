@@ -42,6 +42,11 @@ bool holds_value(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
 
 /// The sentence about the elements whose values linear systems and statics hold; empty: none.
 std::string held_samples_note(const Model& model);
+/// A part of a step that is made as a step; what is shorter is bridged.
+inline constexpr double shortest_part = 0.02;
+/// Throws InputError, naming an element, if a step of this size has parts between its instants that
+/// are shorter.
+void require_samples_of_steps(const Model& model, double step);
 /// Throws InputError, naming an element, if steps of this size from `begin` on do not end at the
 /// instants of all of them.
 void require_ticks_at_steps(const Model& model, double begin, double step);

@@ -28,6 +28,9 @@ class Binder {
  private:
   void name(SyntaxNode& node) const {
     if (const auto it = self_.scope.find(node.word); it != self_.scope.end()) {
+      if (const char* other = also(node.word))
+        throw ExpressionError("found '" + node.word + "', a parameter and also " + other +
+                              ", expected another name of one of them");
       if (const bool* b = std::get_if<bool>(&it->second))
         node = {SyntaxNode::Kind::truth, *b ? 1.0 : 0.0, *b ? "true" : "false", {}};
       else if (const double* x = std::get_if<double>(&it->second))
@@ -40,6 +43,12 @@ class Binder {
     if (word == "t" || word == "time" || constant_value(word) || of_law_) return;
     const auto input = self_.resolve(EntityKind::input, word);
     node.word = input ? *input : self_.prefix + word;
+  }
+  /// What a parameter of this name would hide; null: nothing.
+  const char* also(const std::string& word) const {
+    if (word == "t" || word == "time") return "the time";
+    if (of_law_) return word == "x" || word == "v" ? "a variable of the law" : nullptr;
+    return self_.resolve(EntityKind::input, word) ? "an input" : nullptr;
   }
   /// The name of the entity in the first argument.
   void measure(SyntaxNode& node) const {

@@ -4,6 +4,7 @@
 #include "floatframe/loops/redundancy.hpp"
 #include "floatframe/loops/run_error.hpp"
 #include "floatframe/model/element_kind.hpp"
+#include "floatframe/model/sampling.hpp"
 #include "floatframe/start/initial_state.hpp"
 #include "floatframe/start/system_state.hpp"
 
@@ -37,6 +38,7 @@ void note_unstable_start(const Model& model, std::vector<std::string>& notes) {
 
 ModelCounts check(const Model& model) {
   started_model(built(model), model.simulation);  // rejects a state of another model, as a run
+  require_samples_of_steps(model, model.simulation.step);
   RelativeFormulation relative(model, model.simulation.inertia);
   const AbsoluteFormulation absolute(model, model.simulation.inertia);
   ModelCounts c;

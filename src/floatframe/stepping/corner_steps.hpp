@@ -27,7 +27,7 @@ namespace floatframe {
 
 class CornerSteps {
  public:
-  static constexpr double shortest = 0.02;  ///< fraction of a step that is made as a step
+  static constexpr double shortest = shortest_part;
 
   /// `step`: the nominal step size [s].
   CornerSteps(Formulation& formulation, Integrator& integrator, std::vector<TimeCorner> corners,

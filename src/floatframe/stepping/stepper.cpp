@@ -35,7 +35,7 @@ Stepper::Stepper(const Model& model, const SimulationDescription& options, const
       until_(limits.until && model.until),
       bounded_(limits.bounded),
       grid_(start_.state().t, options.step, limits.duration) {
-  check_ticks();
+  require_samples_of_steps(this->model(), grid_.step());
   if (std::string note = settle_samples(start_, options.step); !note.empty())
     start_.add_note(std::move(note));
   find_corners(options, limits);
@@ -80,16 +80,6 @@ void Stepper::find_corners(const SimulationDescription& o, const StepLimits& lim
 void Stepper::locate_corners(const std::vector<TimeCorner>& corners) {
   if (!corners.empty() || !ticks_.empty())
     corners_.emplace(f_, *integrator_, corners, ticks_, grid_.step());
-}
-
-/// Shorter parts of steps are not made as steps (corner_steps.hpp).
-void Stepper::check_ticks() const {
-  constexpr double shortest = CornerSteps::shortest;
-  for (const Element& e : model().elements)
-    if (e.clock.ticks() && e.clock.period < shortest * grid_.step())
-      throw InputError(
-          ErrorCode::out_of_range,
-          sentences::step_over_samples(element_name(e), e.clock.period, grid_.step(), shortest));
 }
 
 void Stepper::begin_at_start(bool locate_edges) {

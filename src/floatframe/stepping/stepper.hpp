@@ -125,7 +125,6 @@ class Stepper {
   void begin_at_start(bool locate_edges);
   void find_corners(const SimulationDescription& options, const StepLimits& limits);
   void locate_corners(const std::vector<TimeCorner>& corners);
-  void check_ticks() const;
   void prepare_reactions();
 
   /// What a step changes, kept until it is made if the function of an element may throw or a

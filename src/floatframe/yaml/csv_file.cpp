@@ -188,13 +188,13 @@ std::string CsvFile::cell(std::size_t row, std::size_t column) const {
   return std::string(cells_of(csv_trimmed(line), separator)[column]);
 }
 
-std::size_t CsvFile::column(const std::string& name) const {
-  std::size_t found = columns;
+std::vector<std::size_t> CsvFile::columns_of(const std::string& name) const {
+  std::vector<std::size_t> exact, otherwise;
   for (std::size_t k = 0; k < std::min(names.size(), columns); ++k) {
-    if (names[k] == name) return k;
-    if (found == columns && without_unit(names[k]) == name) found = k;
+    if (names[k] == name) exact.push_back(k);
+    if (without_unit(names[k]) == name) otherwise.push_back(k);
   }
-  return found;
+  return exact.empty() ? otherwise : exact;
 }
 
 CsvFile parse_csv(std::string text, DecimalSign sign) {

@@ -29,8 +29,8 @@ struct CsvFile {
   double at(std::size_t row, std::size_t column) const { return numbers[row * columns + column]; }
   /// As it is written.
   std::string cell(std::size_t row, std::size_t column) const;
-  /// From 0; `columns` if there is none. A name may be given without its unit in brackets.
-  std::size_t column(const std::string& name) const;
+  /// From 0, of one name or, if none has it, of one name without its unit in brackets.
+  std::vector<std::size_t> columns_of(const std::string& name) const;
 
   std::vector<std::size_t> starts;  ///< of the rows in the text
   char separator = ' ';

@@ -123,9 +123,14 @@ class TableReader {
     }
     const auto name = value.text("the name or the number of a column");
     if (!name) return csv.columns;
-    const std::size_t k = csv.column(*name);
-    if (k < csv.columns) return k;
-    if (csv.names.empty())
+    const std::vector<std::size_t> found = csv.columns_of(*name);
+    if (found.size() == 1) return found[0];
+    if (found.size() > 1)
+      value.error(ErrorCode::contradiction, "found '" + *name + "', the name of the columns " +
+                                                std::to_string(found[0] + 1) + " and " +
+                                                std::to_string(found[1] + 1) + " of '" + out_.file +
+                                                "', expected the number of one");
+    else if (csv.names.empty())
       value.error(ErrorCode::not_found,
                   "found '" + *name + "', but '" + out_.file +
                       "' has no line of names, expected the number of a column from 1 to " +
