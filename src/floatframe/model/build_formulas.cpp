@@ -281,13 +281,19 @@ class ElementConnection final : public FormulaConnection {
   void coordinate(const Output& out, FormulaOperand& x) {
     Element& e = element();
     const Joint& joint = b_.model.joints[out.joint];
-    const int port = std::ssize(e.markers);
-    e.markers.insert(e.markers.end(), {joint.frame_F, joint.frame_M});
+    const std::array<int, 2> frames{joint.frame_F, joint.frame_M};
+    const auto known = std::ranges::search(e.markers, frames);
+    const int port = known.begin() - e.markers.begin();
+    if (known.empty()) e.markers.insert(e.markers.end(), frames.begin(), frames.end());
     x.ports = {port, port + 1, -1, -1};
     const auto axis = coordinate_axis(joint.type, joint.axis_2, out.component);
     if (!axis || !axis->turns) return;
-    x.angle = std::ssize(e.coordinates);
-    e.coordinates.push_back({out.joint, out.component, port, true});
+    const auto counted = std::ranges::find_if(e.coordinates, [&](const CoordinatePort& c) {
+      return c.joint == out.joint && c.component == out.component;
+    });
+    x.angle = counted - e.coordinates.begin();
+    if (counted == e.coordinates.end())
+      e.coordinates.push_back({out.joint, out.component, port, true});
   }
 
   int element_;
