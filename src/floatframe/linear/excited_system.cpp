@@ -106,7 +106,10 @@ double ExcitedSystem::step_of(const LinearInput& input) {
   move(input, {first, 0.0, 0.0});
   const double change = (balance() - before).head(f_.velocities()).cwiseAbs().maxCoeff();
   move(input, Vec3::Zero());
-  const double wanted = 1e-3 * model_.mean_mass;
+  double largest = model_.mean_mass;
+  for (int k = 0; k < std::ssize(model_.elements); ++k)
+    largest = std::max(largest, std::abs(f_.effort(k).force));
+  const double wanted = 1e-3 * largest;
   return change > 0.0 ? first * std::clamp(wanted / change, 1e-6, 1e6) : first;
 }
 

@@ -35,7 +35,8 @@ class ExcitedSystem {
   void move(const LinearInput& input, const Vec3& by);
   /// Derivatives at constant x, v, a and lambda: `step` as a change of the input.
   void derivatives(const LinearInput& input, double step, Eigen::Index column, InputMotions& out);
-  /// For a signal: a step that changes forces by about 1e-4 of the weight of a body.
+  /// For a signal: a step that changes forces by about 1e-4 of the weight of a body or 1e-3 of the
+  /// largest force: not too little for digits, nor too much for outputs that are not linear.
   double step_of(const LinearInput& input);
   /// Parts of the outputs at increments x, dv and da of the state; x of all unknowns, the others
   /// may have more rows than coordinates.
