@@ -181,10 +181,7 @@ class Compiler {
     add(node, op, 2, 0);
     return out_.steps.size() - 1;
   }
-  void arrive(std::size_t from) {
-    target_ = std::ssize(out_.steps);
-    out_.steps[from].index = target_;
-  }
+  void arrive(std::size_t from) { out_.steps[from].index = target_ = std::ssize(out_.steps); }
   /// The parts in order, until one decides: b and c is if(b, c, false).
   Type junction(const SyntaxNode& node) {
     const bool any = node.kind == SyntaxNode::Kind::any;
