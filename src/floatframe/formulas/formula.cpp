@@ -109,7 +109,8 @@ double piece_change(const Formula& f, double from, double to) noexcept {
   }
   for (double middle; (middle = low + 0.5 * (high - low)) > low && middle < high;)
     (pieces_at(f, middle) == here ? low : high) = middle;
-  return high;
+  // There a sign or a difference may still be zero.
+  return high + 2.0 * std::numeric_limits<double>::epsilon() * std::abs(high);
 }
 
 std::string fault_at(const Formula& f, double t) {

@@ -40,16 +40,16 @@ struct FormulaSwitches {
     return (all & ~(std::int64_t{3} << (2 * k))) | (std::int64_t{piece} << (2 * k));
   }
   int piece_of(int k) const noexcept { return (held >> (2 * k)) & 3; }
+  bool holds(int k) const noexcept { return k < Formula::most_switches && piece_of(k) != 0; }
   /// `natural`: the piece at the present values; `beyond_of(piece, next)`: beyond the nearest edge
   /// of a piece, and what is there.
   template <class Beyond>
   int decide(int k, int natural, const Beyond& beyond_of) noexcept {
-    const bool is_open = k >= Formula::most_switches || piece_of(k) == 0;
-    const int piece = is_open ? natural : piece_of(k);
+    const int piece = holds(k) ? piece_of(k) : natural;
     pass(piece);
     if (k >= Formula::most_switches) return natural;
     present = with(present, k, piece);
-    if (!is_open) {
+    if (holds(k)) {
       int other = 0;
       const double distance = beyond_of(piece, other);
       if (distance > beyond) beyond = distance, crossed = k, next = other;
@@ -209,7 +209,7 @@ class FormulaMachine {
       case Op::sign: {
         const double x = number(1, 0);
         const bool below = switches_.halves(s.index, x) == 1;
-        return leave(1, below ? -1.0 : x == 0.0 ? 0.0 : 1.0);
+        return leave(1, below ? -1.0 : x == 0.0 && !switches_.holds(s.index) ? 0.0 : 1.0);
       }
       default:
         return clip(s.index);
@@ -360,8 +360,8 @@ PiecewisePolynomial::Value formula_at(const Formula& f, double t) noexcept;
 /// The same number as long as it is on the same pieces: comparisons, clip, min, max, abs, sign,
 /// floor, ceil, round.
 std::uint64_t pieces_at(const Formula& f, double t) noexcept;
-/// The first instant in (from, to] at which it is on other pieces than at `from`, to rounding;
-/// infinite if there is none. One that leaves them and comes back within half of the way is not
+/// The first instant in (from, to] at which it is on other pieces than at `from`, some roundings
+/// later; infinite if there is none. Leaving them and coming back within half of the way is not
 /// seen.
 double piece_change(const Formula& f, double from, double to) noexcept;
 std::string fault_at(const Formula& f, double t);

@@ -143,7 +143,7 @@ std::vector<Kink> kinks_of_formula(const Forcing& forcing, double begin, double 
   for (int k = 0; k < most_steps && t < end; ++k) {
     const double to = std::min(t + step, end), at = piece_change(*formula, t, to);
     t = std::min(at, to);
-    if (!(at <= to)) continue;
+    if (std::isinf(at)) continue;
     const FormulaSides side = sides_of(*formula, at);
     if (forcing.kind != Forcing::Kind::motion || near(side.left.df, side.right.df))
       out.push_back({at, !near(side.left.f, side.right.f)});
@@ -239,7 +239,7 @@ std::vector<FormulaOfTime> formulas_of_time(const Model& model) {
 
 double formula_corner(const FormulaOfTime& f, double from, double to) noexcept {
   const double at = piece_change(*f.formula, from, to);
-  if (!f.motion || !(at <= to)) return at;
+  if (!f.motion || std::isinf(at)) return at;
   const FormulaSides side = sides_of(*f.formula, at);
   const bool smooth = near(side.left.f, side.right.f) && near(side.left.df, side.right.df);
   return smooth ? at : std::numeric_limits<double>::infinity();
