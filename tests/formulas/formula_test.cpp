@@ -95,19 +95,6 @@ TEST(Formula, AnyNumberOfBranches) {
   EXPECT_TRUE(error(deep).ends_with("nested too deeply")) << error(deep);
 }
 
-// What is chosen from leaves one value behind it, however often that is done.
-TEST(Formula, AnyNumberOfBranches) {
-  std::string sum = "0", all = "x > 0", deep = "x";
-  for (int k = 0; k < 100; ++k) {
-    sum += " + if(x > " + std::to_string(k) + " and (y > 0 or x > 1), 1, y)";
-    all += " and x > " + std::to_string(k - 100);
-  }
-  EXPECT_EQ(value(sum, {40.5, 2.0}), 41.0 + 59 * 2.0);
-  EXPECT_EQ(value("if(" + all + ", 1, 2) + x", {0.5}), 1.5);
-  for (int k = 0; k < 40; ++k) deep = "(2 - (x + " + deep + "))";
-  EXPECT_TRUE(error(deep).ends_with("nested too deeply")) << error(deep);
-}
-
 TEST(Formula, Errors) {
   EXPECT_EQ(error("1 +"), "formula '1 +': a value is missing at the end");
   EXPECT_EQ(error("x > 1"),
