@@ -72,7 +72,12 @@ Model everything(unsigned seed) {
         road.pieces = road.pieces + PiecewisePolynomial::polynomial({20.0});
         model.roads.push_back(std::move(road));
       }
-      for (Signal& signal : e.signals) signal.input = signal.link = -1;
+      // There are no inputs.
+      for (Signal& signal : e.signals) {
+        signal.input = signal.link = -1;
+        signal.local = nullptr;
+      }
+      e.switched = false;
       model.elements.push_back(std::move(e));
     }
   }

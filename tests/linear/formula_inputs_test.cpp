@@ -61,10 +61,10 @@ joints:
 inputs: {u: {initial: 0.02}}
 controllers:
   one: {type: formula, formula: 'sin(50 * u)'}
-  two: {type: formula, formula: 'exp(value(one)) + u'}
+  two: {type: formula, formula: 'exp(controller(one)) + u'}
   lag: {type: filter, time: 0.1, input: {controller: one}}
 forces:
-  f: {type: joint_spring, joint: z, spring: 30, actuator: {formula: 'value(two)^2'},
+  f: {type: joint_spring, joint: z, spring: 30, actuator: {formula: 'controller(two)^2'},
       target: {formula: 'tanh(100 * u)'}}
   push: {type: force, body: c, at: [1, 0, 0], direction: [0, 0, 1],
          magnitude: {formula: '1e3 * sin(20 * u)'}}

@@ -49,7 +49,7 @@ TEST(ValidateConstraints, NamesWhatIsWrong) {
   const std::vector<DescriptionCase> cases{
       {[](D& d) { keys_of<InLine>(d, 0).a.body = "block"; }, "constraints.line: geometry"},
       {[](D& d) { keys_of<InLine>(d, 0).b.body = "x"; }, "constraints.line.to.body: not_found"},
-      {[](D& d) { keys_of<InLine>(d, 0).axis.setZero(); }, "constraints.line.axis: geometry"},
+      {[](D& d) { keys_of<InLine>(d, 0).axis.setZero(); }, "constraints.line.axis: out_of_range"},
       {[](D& d) { keys_of<Perpendicular>(d, 1).axis_2 = Vec3::UnitZ(); },
        "constraints.square.axis_2: geometry"},
       {[](D& d) { keys_of<ConstantVelocity>(d, 2).axis_2 = Vec3::UnitY(); },

@@ -52,7 +52,7 @@ TEST(ValidateNamedCouplings, Gears) {
           g.driven = {"nut", 0};
         },
         "couplings.tie.driven: incomplete"},
-       {[](Gear& g) { g.driven.joint = "cross"; }, "couplings.tie: geometry"},
+       {[](Gear& g) { g.driven.joint = "cross"; }, "geometry"},
        {[](Gear& g) { g.ratio.reset(); }, "couplings.tie: missing"},
        {[](Gear& g) { g.ratio = 0.0; }, "couplings.tie.ratio: out_of_range"},
        {[](Gear& g) {
@@ -77,7 +77,7 @@ TEST(ValidateNamedCouplings, Gears) {
        {[](Gear& g) { g.pressure_angle = 20.0; }, "couplings.tie.pressure_angle: out_of_range"},
        {[](Gear& g) { g.helix_angle = 0.3; }, "couplings.tie.helix_angle: incomplete"},
        {[](Gear& g) { g.flank = static_cast<GearFlank>(7); }, "couplings.tie.flank: out_of_range"},
-       {[](Gear& g) { g.pressure_angle = 0.35; }, "couplings.tie: geometry"},
+       {[](Gear& g) { g.pressure_angle = 0.35; }, "geometry"},
        {[](Gear& g) { g.mesh_stiffness = 0.0; }, "couplings.tie.mesh_stiffness: out_of_range"},
        {[](Gear& g) { g.mesh_damping = 1.0; }, "couplings.tie.mesh_damping: incomplete"},
        {[](Gear& g) { g.backlash = 0.01; }, "couplings.tie.backlash: incomplete"},
@@ -104,7 +104,7 @@ TEST(ValidateNamedCouplings, PlanetaryGearsAndDifferentials) {
       hub, {{[](PlanetaryGear& g) { g.sun.reset(); }, "couplings.tie: incomplete"},
             {[](PlanetaryGear& g) { g.carrier = CoordinateTerm{"a"}; },
              "couplings.tie.carrier: duplicate"},
-            {[](PlanetaryGear& g) { g.ring = CoordinateTerm{"cross"}; }, "couplings.tie: geometry"},
+            {[](PlanetaryGear& g) { g.ring = CoordinateTerm{"cross"}; }, "geometry"},
             {[](PlanetaryGear& g) { g.teeth = MatX(); }, "couplings.tie: missing"},
             {[](PlanetaryGear& g) {
                g.teeth = MatX{{72.0, 24.0}};
@@ -112,7 +112,7 @@ TEST(ValidateNamedCouplings, PlanetaryGearsAndDifferentials) {
              "couplings.tie.teeth: out_of_range"}});
   expect_coupling_errors<DifferentialGear>(
       {{"a"}, {"b"}, {"nut"}},
-      {{[](DifferentialGear& g) { g.cage = {"cross"}; }, "couplings.tie: geometry"},
+      {{[](DifferentialGear& g) { g.cage = {"cross"}; }, "geometry"},
        {[](DifferentialGear& g) { g.right = {"slide"}; }, "couplings.tie.right: wrong_value"}});
 }
 
@@ -138,7 +138,7 @@ TEST(ValidateNamedCouplings, WhatSlides) {
       {{[](BeltDrive& b) { b.radii(1) = -0.1; }, "couplings.tie.radii: out_of_range"},
        {[](BeltDrive& b) { b.stiffness = -1.0; }, "couplings.tie.stiffness: out_of_range"},
        {[](BeltDrive& b) { b.damping = 1.0; }, "couplings.tie.damping: incomplete"},
-       {[](BeltDrive& b) { b.driven = {"cross"}; }, "couplings.tie: geometry"}});
+       {[](BeltDrive& b) { b.driven = {"cross"}; }, "geometry"}});
   expect_coupling_errors<Mimic>(
       {{"a"}, {"slide"}, 0.5, 0.0},
       {{[](Mimic& m) { m.factor = 0.0; }, "couplings.tie.factor: out_of_range"},

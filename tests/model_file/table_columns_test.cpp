@@ -59,7 +59,7 @@ TEST_F(TableColumns, NamesWithUnitsQuotesAndBlanks) {
   EXPECT_EQ(values("\"time\",\"force, x\",b\n\"s\",\"N\",\"\"\n0,1,2\n1,3,4\n",
                    "{file: t.csv, column: \"force, x\"}"),
             (Values{1, 2, 3}));
-  EXPECT_EQ(values("t [s];F [N];F [kN]\n0;1;2\n1;3;4\n", "{file: t.csv, column: F}"),
+  EXPECT_EQ(values("t [s];F [N];F [kN]\n0;1;2\n1;3;4\n", "{file: t.csv, column: \"F [N]\"}"),
             (Values{1, 2, 3}));
   EXPECT_EQ(values("t [s];F [N];F [kN]\n0;1;2\n1;3;4\n", "{file: t.csv, column: \"F [kN]\"}"),
             (Values{2, 3, 4}));

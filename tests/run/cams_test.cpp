@@ -83,7 +83,8 @@ class Cams : public ::testing::TestWithParam<CamCase> {
   }
   /// The largest differences of the acceleration and of the force from the closed form, relative to
   /// the largest acceleration and force.
-  std::pair<double, double> errors(const RunResult& r, double speed = 50.0) const {
+  std::pair<double, double> errors(const RunResult& r, double of_lift = 1e-6) const {
+    constexpr double speed = 50.0;
     double error = 0.0, most = 0.0, error_F = 0.0, most_F = 0.0;
     for (std::size_t k = 0; k < r.table.rows(); ++k) {
       const double x = speed * r.table.at(k, 0);
@@ -95,7 +96,7 @@ class Cams : public ::testing::TestWithParam<CamCase> {
       most_F = std::max(most_F, std::abs(F));
       error = std::max(error, std::abs(r.table.at(k, 3) - a));
       error_F = std::max(error_F, std::abs(r.table.at(k, 4) - F));
-      EXPECT_NEAR(r.table.at(k, 2), s.f, 1e-6 * cam_lift);
+      EXPECT_NEAR(r.table.at(k, 2), s.f, of_lift * cam_lift);
     }
     return {error / most, error_F / most_F};
   }
@@ -116,8 +117,9 @@ TEST_P(Cams, OfATableAccelerateTheFollowerToAThousandth) {
     points += fmt::format("{}[{:.12g}, {:.12g}]", k > 0 ? ", " : "", x,
                           k == 720 ? 0.0 : lift_at(GetParam().law, x).f);
   }
-  const auto [a, F] = errors(turned("points: [" + points + "]"));
-  if (GetParam().law != CamLaw::harmonic) {  // whose acceleration jumps
+  const bool jumps = GetParam().law == CamLaw::harmonic;  // its acceleration, at the dwells
+  const auto [a, F] = errors(turned("points: [" + points + "]"), jumps ? 1e-5 : 1e-6);
+  if (!jumps) {
     EXPECT_LT(a, 1e-3);
     EXPECT_LT(F, 1e-3);
   }
@@ -175,7 +177,7 @@ joints:
     at: [0, 0, 0]
     axis: y
     position: 50.265482457436692
-    velocity: 12
+    velocity: 30
   valve: {type: prismatic, child: valve, at: [0, 0, 0.1], axis: z}
 couplings:
   cam: {type: cam, follower: valve, cam: shaft, formula: 0.05 * (1 - cos(x)) + 0.01 * sin(2 * x)}
@@ -198,7 +200,7 @@ simulation: {step: 2.0e-4, duration: 1.5}
       slowest = std::min(slowest, w);
     }
     EXPECT_GT(r.table.at(r.table.rows() - 1, 1) - r.table.at(0, 1), 8.0);
-    EXPECT_LT(slowest, 11.0);
+    EXPECT_LT(slowest, 25.0);
   }
 }
 

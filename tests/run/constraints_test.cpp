@@ -71,7 +71,7 @@ TEST(ParallelConstraint, LeavesTheTurnAboutTheAxis) {
   for (const Coordinates c : both_coordinates) {
     const RunResult r = run_in(R"(
 gravity: [0, 0, 0]
-bodies: {top: {position: [0, 0, 0], rigid: {mass: 1, inertia: [0.1, 0.2, 0.4]}}}
+bodies: {top: {position: [0, 0, 0], rigid: {mass: 1, inertia: [0.3, 0.2, 0.4]}}}
 constraints:
   upright: {type: parallel, from: {body: ground, at: [0, 0, 0]}, to: {body: top}, axis: z}
 forces: {turn: {type: torque, body: top, direction: [5, 0, 1], magnitude: 1}}
@@ -112,7 +112,8 @@ simulation: {step: 1.0e-3, duration: 1}
 )",
                                c);
     const std::size_t end = r.table.rows() - 1;
-    EXPECT_NEAR(r.table.at(end, 1), 2.0, 1e-9);
+    // Turns in absolute coordinates have an error of the step.
+    EXPECT_NEAR(r.table.at(end, 1), 2.0, c == Coordinates::relative ? 1e-9 : 1e-5);
     EXPECT_NEAR(r.table.at(end, 2), 0.0, 1e-10);
     EXPECT_NEAR(r.table.at(end, 3), 0.0, 1e-10);
     EXPECT_NEAR(r.table.at(end, 4), 0.0, 1e-8);

@@ -81,9 +81,7 @@ void find_output_columns(ExcitedSystem& excited, const std::vector<double>& inpu
     for (int k = 0; k <= input.order(); ++k) {
       const VecX x = k == 0 ? VecX(moved.x.col(j)) : still;
       const VecX v = k < 2 ? VecX(moved.v[k].col(j)) : still;
-      double h = input_steps[static_cast<std::size_t>(j)] * std::pow(10.0, k);
-      if (input.kind == LinearInput::Kind::signal)
-        h = std::min({h, step_along(x, steps), step_along(v, 10.0 * steps)});
+      const double h = input_steps[static_cast<std::size_t>(j)] * std::pow(10.0, k);
       const VecX a = moved.a[k].col(j);
       const VecX dparts = precise_differences(VecX::Constant(1, h), 0, [&](const VecX& s) {
                             excited.move(input, s[0] * Vec3::Unit(k));

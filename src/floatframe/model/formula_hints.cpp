@@ -6,7 +6,6 @@
 #include "floatframe/model/element_evaluation.hpp"
 #include "floatframe/model/element_outputs.hpp"
 #include "floatframe/model/hint_list.hpp"
-#include "floatframe/model/local_formula.hpp"
 #include "floatframe/model/output_kind.hpp"
 
 namespace floatframe {
@@ -87,7 +86,9 @@ void hint_at_formulas(const Model& model, bool located, HintList& out) {
     for (const Signal& s : e.signals)
       if (s.local) {
         const Formula& f = *s.local->formula;
-        const auto reads_rate = [&](int i) { return f.references[i].name == own_rate; };
+        const auto reads_rate = [&](int i) {
+          return s.local->references[i].of == LocalFormula::Operand::rate;
+        };
         hint_at_kinks(s.local->name, f, may_stick(f, reads_rate), located, out);
       }
     if (const auto* keys = std::get_if<ForceLaw>(e.keys.get()); keys && keys->law.formula()) {

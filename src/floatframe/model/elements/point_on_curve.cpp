@@ -2,6 +2,8 @@
 // `on_curve`. The curve is given from the point of `from` along the axes of the world as drawn.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "floatframe/model/axis_constraint.hpp"
 #include "floatframe/model/space_curve.hpp"
 
@@ -92,9 +94,10 @@ bool point_on_curve_build(ElementBuild& build) {
                 "tangent is not zero");
     return false;
   }
-  if (keys.closed && keys.points.rows() == 0)
-    if (const double gap = (curve->at(keys.range(0)).c - curve->at(keys.range(1)).c).norm();
-        gap > 1e-9) {
+  if (keys.closed && keys.points.rows() == 0) {
+    // At the end itself the curve begins again.
+    const double begin = keys.range(0), end = std::nextafter(keys.range(1), begin);
+    if (const double gap = (curve->at(begin).c - curve->at(end).c).norm(); gap > 1e-9) {
       build.error(
           ErrorCode::contradiction,
           fmt::format("found a gap of {:.3g} m between the ends of a closed curve, expected "
@@ -102,6 +105,7 @@ bool point_on_curve_build(ElementBuild& build) {
                       gap));
       return false;
     }
+  }
   build.element.data = std::move(curve);
   return true;
 }
