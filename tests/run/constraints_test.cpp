@@ -84,7 +84,8 @@ simulation: {step: 1.0e-3, duration: 1}
     const std::size_t end = r.table.rows() - 1;
     EXPECT_NEAR(r.table.at(end, 1), 0.0, 1e-10);
     EXPECT_NEAR(r.table.at(end, 2), 0.0, 1e-10);
-    EXPECT_NEAR(r.table.at(end, 3), 1.0 / 0.4, 1e-9);
+    // Turns in absolute coordinates have an error of the step.
+    EXPECT_NEAR(r.table.at(end, 3), 1.0 / 0.4, c == Coordinates::relative ? 1e-9 : 1e-5);
     EXPECT_NEAR(r.table.at(end, 4), -5.0, 1e-8);
     EXPECT_NEAR(r.table.at(end, 5), 0.0, 1e-8);
     EXPECT_NEAR(r.table.at(end, 6), 0.0, 1e-8);

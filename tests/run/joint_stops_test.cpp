@@ -15,8 +15,6 @@
 namespace floatframe::test {
 namespace {
 
-constexpr double half_turn = std::numbers::pi;
-
 /// 0.5 kg on a slide, 0.05 m above its stop, which it approaches with 2 m/s.
 std::string buffered(const std::string& stop) {
   return R"(
@@ -120,7 +118,7 @@ TEST(JointStops, AreTheElement) {
 // (2 / w) (pi - atan(v w / g)) and the flight 2 v / g. 200 steps in pi / w: of the trapezoidal rule
 // the contact is longer by (w h)^2 / 12, 2e-10 s; short ends of steps at touches raise v by 2e-5.
 TEST(JointStops, ThousandImpactsComeAtTheirInstants) {
-  const double g = 1e5, v = 1.0, w = half_turn / 1e-5, h = 1e-5 / 200.0;
+  const double g = 1e5, v = 1.0, w = std::numbers::pi / 1e-5, h = 1e-5 / 200.0;
   const std::string text = R"(
 gravity: [0, 0, -1.0e5]
 bodies: {ball: {position: [0, 0, 0], rigid: {mass: 0.5, inertia: [0.01, 0.01, 0.01]}}}
@@ -132,7 +130,7 @@ outputs: {z: {joint_position: fall}, v: {joint_velocity: fall}}
 simulation: {step: 1.0e-7, duration: 1, tolerance: 1.0e-14, locate_edges: true}
 )";
   const Model model = model_of(text);
-  const double period = 2.0 * v / g + 2.0 / w * (half_turn - std::atan(v * w / g));
+  const double period = 2.0 * v / g + 2.0 / w * (std::numbers::pi - std::atan(v * w / g));
   for (const Coordinates c : both_coordinates) {
     Simulation s(model, {.step = h, .coordinates = c});
     double worst = 0.0;
