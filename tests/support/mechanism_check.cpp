@@ -118,8 +118,8 @@ bool refused_for_mass(const Outcome& o) {
 }
 
 /// Stopped in its first step for the same.
-bool stops_at_once(const Outcome& o) {
-  return o.started && loses_mass(o) && o.result.summary.duration == 0.0;
+bool stops_at_once(const Outcome& o, double step) {
+  return o.started && loses_mass(o) && o.result.summary.duration < step;
 }
 
 /// How far a run says it may be judged: until it leaves the range of small deformations, and half
@@ -261,7 +261,8 @@ Judgement judge(const Mechanism& mechanism) {
     Outcome a = run_once(model, o, mechanism, Coordinates::absolute);
     if (!r.known || !a.known) return verdict(Verdict::no_reason, r.reason + " / " + a.reason);
     if (!r.started || !a.started) {
-      if ((refused_for_mass(r) && stops_at_once(a)) || (refused_for_mass(a) && stops_at_once(r)))
+      if ((refused_for_mass(r) && stops_at_once(a, o.step)) ||
+          (refused_for_mass(a) && stops_at_once(r, o.step)))
         return verdict(Verdict::refused, r.reason + " / " + a.reason);
       if (r.started || a.started)
         return verdict(Verdict::split,
