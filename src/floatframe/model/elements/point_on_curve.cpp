@@ -2,8 +2,6 @@
 // `on_curve`. The curve is given from the point of `from` along the axes of the world as drawn.
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "floatframe/model/axis_constraint.hpp"
 #include "floatframe/model/space_curve.hpp"
 
@@ -96,8 +94,8 @@ bool point_on_curve_build(ElementBuild& build) {
   }
   if (keys.closed && keys.points.rows() == 0) {
     // At the end itself the curve begins again.
-    const double begin = keys.range(0), end = std::nextafter(keys.range(1), begin);
-    if (const double gap = (curve->at(begin).c - curve->at(end).c).norm(); gap > 1e-9) {
+    const double begin = keys.range(0), end = keys.range(1) - 1e-9 * (keys.range(1) - begin);
+    if (const double gap = (curve->at(begin).c - curve->at(end).c).norm(); gap > 1e-6) {
       build.error(
           ErrorCode::contradiction,
           fmt::format("found a gap of {:.3g} m between the ends of a closed curve, expected "
