@@ -1,5 +1,5 @@
-// Machines whose controllers are formulas: a satellite with wheels, a gas spring with a table of
-// two variables.
+// Machines whose controllers are formulas: a satellite with wheels, an engine whose gas is a table
+// of crank angle and load.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -63,33 +63,71 @@ TEST(FormulaMachines, ASatelliteTurnsAndKeepsItsMomentum) {
     EXPECT_LT(fine, c == Coordinates::relative ? 2e-6 : 0.05);
     EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.3);
   }
+  EXPECT_LT(drift(1e-3, Coordinates::relative), 1e-7);  // [N m s]
   const std::vector<double> rows = completed_run(model, model.simulation).table.data;
   EXPECT_LT(rows[4], 0.9);
   EXPECT_EQ(std::abs(rows[5]), 0.3);                        // at its limit
   EXPECT_NEAR(std::abs(rows[rows.size() - 2]), 1.0, 1e-6);  // there
 }
 
-TEST(FormulaMachines, AGasSpringByATableOfTwoVariables) {
-  const Model model = model_of(R"(
+// The pressure of the gas is a table of crank angle and load.
+const std::string engine = R"(
 gravity: [0, 0, 0]
-inputs: {T: {initial: 350}}
+parameters: {crank: 0.05, rod: 0.15, area: 0.005, turn: 6.283185307179586}
+points: {o: [0, 0, 0], c: ['${crank}', 0, 0], p: ['${crank + rod}', 0, 0]}
+inputs: {load: {initial: 0.7}}
 tables:
-  gas: {grid: {x: [0.1, 0.2, 0.4], y: [300, 400], values: [[900, 1200], [450, 600], [225, 300]]}}
-bodies: {piston: {rigid: {mass: 2, centre_of_mass: [0, 0, 0], inertia: [0.01, 0.01, 0.01]}}}
-joints: {slide: {type: prismatic, child: piston, at: [0, 0, 0], axis: x, position: 0.25}}
+  gas:
+    grid:
+      x: [0, 1.2, 3.0, '${turn}']
+      y: [0, 1]
+      values: [[1e5, 30e5], [3e5, 12e5], [1e5, 2e5], [1e5, 30e5]]
+bodies:
+  crank: {rigid: {mass: 5, centre_of_mass: o, inertia: [0.02, 0.02, 0.02]}}
+  rod: {rigid: {mass: 0.5, centre_of_mass: ['${crank + rod/3}', 0, 0], inertia: [1e-4, 2e-3, 2e-3]}}
+  piston: {rigid: {mass: 0.4, centre_of_mass: p, inertia: [1e-4, 1e-4, 1e-4]}}
+joints:
+  main: {type: revolute, child: crank, at: o, axis: z, velocity: 100}
+  pin: {type: revolute, parent: crank, child: rod, at: c, axis: z}
+  bore: {type: prismatic, child: piston, at: p, axis: x}
+  wrist: {type: spherical, parent: rod, child: piston, at: p}
 forces:
-  gas: {type: joint_spring, joint: slide, actuator: {formula: 'table2(gas, angle(slide), T) - 500'}}
-outputs: {x: {joint_position: slide}, f: {force: gas}, v: {joint_velocity: slide}}
-simulation: {step: 0.0005, duration: 0.2}
-)");
+  gas:
+    type: joint_spring
+    joint: bore
+    actuator:
+      formula: '-area * table2(gas, angle(main) - turn * floor(angle(main) / turn), load)'
+outputs: {a: {joint_position: main}, f: {force: gas}, x: {joint_position: bore}}
+simulation: {step: 0.0001, duration: 0.2}
+)";
+
+TEST(FormulaMachines, AnEngineByATableOfAngleAndLoad) {
+  constexpr double turn = 2.0 * std::numbers::pi;
+  const auto pressure = [](double angle) {
+    const std::vector<double> x{0.0, 1.2, 3.0, turn}, idle{1e5, 3e5, 1e5, 1e5},
+        full{30e5, 12e5, 2e5, 30e5};
+    angle -= turn * std::floor(angle / turn);
+    std::size_t k = 2;
+    while (x[k] > angle) --k;
+    const double s = (angle - x[k]) / (x[k + 1] - x[k]);
+    const auto at = [&](const std::vector<double>& p) { return (1.0 - s) * p[k] + s * p[k + 1]; };
+    return 0.3 * at(idle) + 0.7 * at(full);
+  };
+  const Model model = model_of(engine);
+  std::vector<double> ends;
   for (const Coordinates c : both_coordinates) {
     const std::vector<double> rows = completed_run(model, with(model.simulation, c)).table.data;
     for (std::size_t k = 0; k + 3 < rows.size(); k += 4) {
-      const double x = rows[k + 1];
-      const double p = x < 0.2 ? 1050 + (x - 0.1) * -5250 : 525 + (x - 0.2) * -1312.5;
-      EXPECT_NEAR(-rows[k + 2], p - 500, 1e-9 * 500);
+      EXPECT_NEAR(rows[k + 2], 0.005 * pressure(rows[k + 1]), 1e-8);
+      const double a = rows[k + 1];
+      EXPECT_NEAR(rows[k + 3],
+                  0.05 * std::cos(a) + std::sqrt(0.0225 - std::pow(0.05 * std::sin(a), 2)) - 0.2,
+                  1e-8);
     }
+    ends.push_back(rows[rows.size() - 3]);
   }
+  EXPECT_LT(ends[0], -turn);  // the gas turned it backwards, more than a turn
+  EXPECT_NEAR(ends[0], ends[1], 1e-2);
 }
 
 }  // namespace
