@@ -47,7 +47,7 @@ test: build
 # What takes longer than everyday work allows. Models close to a limit fall to one side or the other with the processor;
 # docs/validation.md has the figures.
 test-all: test
-	FLOATFRAME_RANDOM=1000 build/tests/mechanisms_tests --gtest_brief=1
+	cd build && FLOATFRAME_RANDOM=1000 $(CTEST) --timeout 20000 -R '^mechanisms\.'
 	$(MAKE) --no-print-directory attacks ATTACKS=200
 	FLOATFRAME_STAIRS=1 build/tests/run_tests --gtest_brief=1 --gtest_filter='*IltisStairs*'
 	FLOATFRAME_KILLS=20 FLOATFRAME_BINARY=build/floatframe python3 -B tests/cli/kill_test.py
