@@ -349,7 +349,8 @@ struct Delay {
   entry(constant_velocity, ConstantVelocity) \
   entry(cam, Cam)                       \
   entry(point_on_curve, PointOnCurve)   \
-  entry(journal_bearing, JournalBearing)
+  entry(journal_bearing, JournalBearing) \
+  entry(curve_on_curve, CurveOnCurve)
 // clang-format on
 
 #define FLOATFRAME_ENTRY(name, Keys) name,
