@@ -198,7 +198,7 @@ TEST(RandomMechanisms, GoOnToTheBit) {
         o.inertia = c == Coordinates::relative ? m->relative : m->absolute;
         Simulation whole(model, o), later(model, o);
         bool runs = true;
-        for (int k = 0; k < 10 && runs; ++k) runs = whole.step();
+        for (int k = 0; k < 10 && runs; ++k) runs = static_cast<bool>(whole.step());
         if (!runs) continue;
         later.restore(SimulationState::from_bytes(whole.save().to_bytes()));
         for (int k = 0; k < 10 && runs; ++k) runs = whole.step() && later.step();

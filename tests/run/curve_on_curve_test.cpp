@@ -63,8 +63,8 @@ bodies:
 joints:
   shaft: {{type: revolute, child: cam, at: [0, 0, 0], axis: y, motion: {{velocity: 10}}}}
   guide: {{type: prismatic, child: follower, at: [0, 0, 0], axis: z}}
-constraints: {{c: {{type: curve_on_curve, from: {{body: cam, at: [0, 0, 0]}}, to: {{body: follower}},
-  axis: y, {}, {}}}}}
+constraints: {{c: {{type: curve_on_curve,
+  from: {{body: cam, at: [0, 0, 0]}}, to: {{body: follower}}, axis: y, {}, {}}}}}
 outputs: {{s: {{joint_position: guide}}, F: {{joint_force: {{constraint: c}}}}}}
 simulation: {{step: 1.0e-3, duration: 1, tolerance: 1.0e-13, position_tolerance: 1.0e-13}}
 )",

@@ -13,7 +13,7 @@ namespace floatframe::test {
 
 namespace {
 
-bool without_mass(const ModelDescription& d, const std::string& name) {
+bool is_massless(const ModelDescription& d, const std::string& name) {
   return std::ranges::any_of(d.bodies, [&](const BodyDescription& b) {
     const auto* rigid = std::get_if<RigidDescription>(&b.kind);
     return b.name == name && rigid && rigid->mass == 0.0;
@@ -25,7 +25,7 @@ std::vector<CoordinateTerm> free_coordinates(const ModelDescription& d, ExampleN
   std::vector<CoordinateTerm> left, all;
   for (const JointDescription& j : d.joints)
     for (int k = 0; k < joint_velocities(j.type) && !j.motion; ++k)
-      if (!without_mass(d, j.parent.body) && !without_mass(d, j.child.body) &&
+      if (!is_massless(d, j.parent.body) && !is_massless(d, j.child.body) &&
           coordinate_axis(j.type, Vec3::UnitX(), k))
         left.push_back({j.name, k});
   while (!left.empty()) {
@@ -96,7 +96,7 @@ std::optional<Mechanism> with_constraint(Mechanism m, ElementType type, unsigned
   std::vector<AttachmentDescription> places;
   for (const JointDescription& j : d.joints)
     for (const AttachmentDescription& at : {j.parent, j.child})
-      if (!without_mass(d, at.body)) places.push_back(at);
+      if (!is_massless(d, at.body)) places.push_back(at);
   for (int trial = 0; trial < 20 && !places.empty(); ++trial) {
     const auto any = [&] {
       return places[static_cast<std::size_t>(
@@ -115,8 +115,8 @@ std::optional<Mechanism> with_touching_curves(Mechanism mechanism, unsigned seed
   ModelDescription& d = m.description;
   ExampleNumbers numbers(seed);
   for (const JointDescription& j : d.joints) {
-    if (j.type != JointType::planar || j.motion || without_mass(d, j.parent.body) ||
-        without_mass(d, j.child.body))
+    if (j.type != JointType::planar || j.motion || is_massless(d, j.parent.body) ||
+        is_massless(d, j.child.body))
       continue;
     const Vec3 k = j.axis.normalized(), n = normal_to(k, numbers), t = k.cross(n);
     const double r = numbers(0.2, 0.5);

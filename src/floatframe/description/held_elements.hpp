@@ -41,8 +41,8 @@ struct PointOnCurve {
   bool closed = false;
 };
 
-/// A curve that is fixed in the body of a touches one that is fixed in the body of b, in planes that
-/// are normal to the axis: each as that of a PointOnCurve, the second one from the point of b.
+/// A curve that is fixed in the body of a touches one that is fixed in the body of b, in planes
+/// normal to the axis: each as that of a PointOnCurve, the second one from the point of b.
 struct CurveOnCurve : AxisConstraint {
   MatX points = {};
   std::optional<SharedFormula> x = {}, y = {}, z = {};

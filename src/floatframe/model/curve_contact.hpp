@@ -4,8 +4,8 @@
 //   D = d + R q - p,  t = p'/|p'|,  n = k x t,
 // the parameters of the contact have a common tangent and normal:
 //   g_1 = t.D = 0,   g_2 = n.R q' = 0                                                          (1)
-// Newton on (1) begins at the best pair of samples: b is convex, so that its table of tangent angles
-// gives a w for each sample u of a. Nothing is remembered from one evaluation to the next.
+// Newton on (1) begins at the best pair of samples: b is convex, so that its table of tangent
+// angles gives a w for each sample u of a. Nothing is remembered from one evaluation to the next.
 // With kappa the curvature of a and kappa_b that of b against the same normal the contact is the
 // only one, and goes on smoothly, if kappa > kappa_b at all pairs or kappa < kappa_b at all.
 #include "floatframe/model/space_curve.hpp"

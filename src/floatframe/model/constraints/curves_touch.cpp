@@ -1,5 +1,5 @@
-// Curves touch: a curve of a and one of b have a common tangent in their contact (curve_contact.hpp).
-// With p and q in world axes, the normal n, t and D = r_b + q - r_a - p there:
+// Curves touch: a curve of a and one of b have a common tangent in their contact
+// (curve_contact.hpp). With p and q in world axes, the normal n, t and D = r_b + q - r_a - p there:
 //   phi        n.D = 0                                                          1 row
 // The derivatives of phi by the parameters u and w vanish in the contact, so with both held:
 //   gradient   that along the axis n that rotates with a (axis_row.hpp), of the point r_b + q,

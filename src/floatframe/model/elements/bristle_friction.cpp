@@ -1,5 +1,5 @@
-// Friction on a coordinate of a joint by the bristles of bristle_law.hpp, which give f and zdot, with
-// the normal force N as a factor:
+// Friction on a coordinate of a joint by the bristles of bristle_law.hpp, which give f and zdot,
+// with the normal force N as a factor:
 //   F = N f + viscous v,  -F acts on the coordinate
 //   N = radius max(0, normal + preload); radius without both
 // z is measured along the coordinate.

@@ -1,6 +1,6 @@
 // Curve on curve: a plane curve of one body touches one of another body, in planes normal to the
-// same axis: the row `curves_touch`. Its force acts in the contact along the common normal; where it
-// changes its sign, a contact that only pushes would be lost: the row holds on.
+// same axis: the row `curves_touch`. Its force acts in the contact along the common normal; where
+// it changes its sign, a contact that only pushes would be lost: the row holds on.
 // Curves may touch from outside or one in the other. As drawn, the pair of points with a common
 // tangent that are nearest to each other is the contact.
 #include <fmt/format.h>

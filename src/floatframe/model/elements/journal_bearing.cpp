@@ -1,13 +1,13 @@
-// Journal bearing with clearance: a shaft of the radius r in a bush, whose marker a carries the axis
-// z = R_a z, touches it where the eccentricity s of its point b in the plane of the bearing exceeds
+// Journal bearing with clearance: a shaft of the radius r in a bush, whose marker a carries the
+// axis z = R_a z, touches it where the eccentricity s of its point b in the plane of the bearing exceeds
 // the radial clearance c. With d = r_b - r_a and the part of d across z, s n, t = z x n:
 //   s, sdot        those along the axis n that turns with a (axis_measure.hpp)
 //   contact        the push P of contact_law.hpp of the compression s - c
 //   sliding        v = t.(v_b - v_a) + (w_a x t).d + r z.(w_b - w_a), of the surface of the shaft
 //                  over that of the bush in the point of the contact
 //   friction       F = P f, f by the bristles of bristle_law.hpp; the state is z of the bristles
-//   wrench         -P n on the shaft at its point and -F t at the contact r_b + r n, the opposite on
-//                  the bush in the same points: torque -r F about z on the shaft
+//   wrench         -P n on the shaft at its point and -F t at the contact r_b + r n, the opposite
+//                  on the bush in the same points: torque -r F about z on the shaft
 //   rows           slope and damping of P along n, P/s along t, P f_v of the sliding
 // While apart the bristles keep their deflection. What they store counts as dissipated.
 #include "floatframe/description/sentences.hpp"
