@@ -1,6 +1,6 @@
 // Journal bearing with clearance: a shaft of the radius r in a bush, whose marker a carries the
-// axis z = R_a z, touches it where the eccentricity s of its point b in the plane of the bearing exceeds
-// the radial clearance c. With d = r_b - r_a and the part of d across z, s n, t = z x n:
+// axis z = R_a z, touches it where the eccentricity s of its point b in the plane of the bearing
+// exceeds the radial clearance c. With d = r_b - r_a and the part of d across z, s n, t = z x n:
 //   s, sdot        those along the axis n that turns with a (axis_measure.hpp)
 //   contact        the push P of contact_law.hpp of the compression s - c
 //   sliding        v = t.(v_b - v_a) + (w_a x t).d + r z.(w_b - w_a), of the surface of the shaft
