@@ -176,7 +176,8 @@ joints:
 forces:
   pin: {type: journal_bearing, from: {body: rod, at: [0.1, 0, 0]},
     to: {body: crank, at: [0.1, 0, 0]}, axis: y, radius: 0.01, clearance: 0.001,
-    stiffness: 1e6, restitution: 0.7, friction: 0.1, kinetic: 0.08, stribeck: 0.1, deflection: 1e-4, bristle_damping: 0.01}
+    stiffness: 1e6, restitution: 0.7, friction: 0.1, kinetic: 0.08, stribeck: 0.1,
+    deflection: 1e-4, bristle_damping: 0.01}
 outputs: {q: {joint_position: main}, s: {joint_position: guide}, r: {joint_position: wrist},
   N: {force: pin}, e: {length: pin}}
 simulation: {step: 4.0e-5, duration: 0.012, locate_edges: true}
