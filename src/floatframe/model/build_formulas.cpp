@@ -216,8 +216,9 @@ class FormulaConnection {
       return wrong(ErrorCode::wrong_value,
                    sentences::formula_component(r.function, r.detail, words));
     }
-    const bool of_force = o.type == OutputType::force && !values_of_force(r.name).empty();
-    if (of_force || output_kind(o.type).of == OutputOf::controller) {
+    const OutputKind& kind = output_kind(o.type);
+    if (kind.one_of_values &&
+        (kind.of == OutputOf::controller || !values_of_force(r.name).empty())) {
       o.value = r.detail;
       return true;
     }

@@ -78,7 +78,7 @@ bool ModelBuilder::subject(const OutputDescription& o, Output& out, const std::s
       return out.joint >= 0;
     case OutputOf::force:
       return of_list(ElementList::forces) &&
-             (o.type != OutputType::force || value_of_element(o, out, what));
+             (!output_kind(o.type).one_of_values || value_of_element(o, out, what));
     case OutputOf::rod:
       return of_list(ElementList::rods);
     case OutputOf::coupling:

@@ -20,7 +20,7 @@
   entry(cam_angle)                    \
   entry(cam_displacement)             \
   entry(on_curve)                     \
-  entry(curves_touch)
+  entry(curve_on_curve)
 // clang-format on
 
 namespace floatframe {

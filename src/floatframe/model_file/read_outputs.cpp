@@ -246,7 +246,7 @@ class OutputReader {
   }
 
   bool force(const OutputKind& kind, YamlSection& s, const YamlValue& what, OutputDescription& o) {
-    if (o.type == OutputType::force)
+    if (kind.one_of_values)
       if (const auto value = s.get("output")) o.value = read_value_name(*value);
     if (!put(self_.reference(EntityKind::force, what), o.entity)) return false;
     const auto type = model_.element_types.find(o.entity);

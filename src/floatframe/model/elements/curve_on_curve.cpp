@@ -1,5 +1,5 @@
 // Curve on curve: a plane curve of one body touches one of another body, in planes normal to the
-// same axis: the row `curves_touch`. Its force acts in the contact along the common normal; where
+// same axis: the row `curve_on_curve`. Its force acts in the contact along the common normal; where
 // it changes its sign, a contact that only pushes would be lost: the row holds on.
 // Curves may touch from outside or one in the other. As drawn, the pair of points with a common
 // tangent that are nearest to each other is the contact.
@@ -106,7 +106,7 @@ bool curve_on_curve_build(ElementBuild& build) {
 void curve_on_curve_rows(const Model& model, const Element& element, ConstraintPart part,
                          std::vector<ConstraintPart>& parts) {
   ConstraintParts of(model, element, part, parts);
-  of.add(ConstraintType::curves_touch).curves =
+  of.add(ConstraintType::curve_on_curve).curves =
       static_cast<const CurveContact*>(element.data.get());
 }
 

@@ -24,6 +24,7 @@ constinit const OutputKind force_output = {
     .of = OutputOf::force,
     .unit = "N or N m",
     .unit_of = unit_of_value,
-    .is_signal = true};
+    .is_signal = true,
+    .one_of_values = true};
 
 }  // namespace floatframe

@@ -75,9 +75,9 @@ void add_touching_curvature(const CurveContact& curves, const MarkerState& a, co
 }  // namespace
 
 template <>
-void constraint_rows_of<ConstraintType::curves_touch>(const ConstraintPart& part,
-                                                      const MarkerState& a, const MarkerState& b,
-                                                      double, ConstraintRow* rows) noexcept {
+void constraint_rows_of<ConstraintType::curve_on_curve>(const ConstraintPart& part,
+                                                        const MarkerState& a, const MarkerState& b,
+                                                        double, ConstraintRow* rows) noexcept {
   assert(part.curves);
   if (!part.curves->swapped()) return touching_row(*part.curves, a, b, *rows);
   touching_row(*part.curves, b, a, *rows);
@@ -85,11 +85,11 @@ void constraint_rows_of<ConstraintType::curves_touch>(const ConstraintPart& part
 }
 
 template <>
-void constraint_curvature_of<ConstraintType::curves_touch>(const ConstraintPart& part,
-                                                           const MarkerState& a,
-                                                           const MarkerState& b,
-                                                           const double* lambda,
-                                                           Mat12& K) noexcept {
+void constraint_curvature_of<ConstraintType::curve_on_curve>(const ConstraintPart& part,
+                                                             const MarkerState& a,
+                                                             const MarkerState& b,
+                                                             const double* lambda,
+                                                             Mat12& K) noexcept {
   if (!part.curves->swapped()) return add_touching_curvature(*part.curves, a, b, lambda[0], K);
   Mat12 other = Mat12::Zero();
   add_touching_curvature(*part.curves, b, a, lambda[0], other);
@@ -97,7 +97,7 @@ void constraint_curvature_of<ConstraintType::curves_touch>(const ConstraintPart&
     for (const int j : {0, 6}) K.block<6, 6>(i, j) += other.block<6, 6>(6 - i, 6 - j);
 }
 
-constinit const ConstraintKind curves_touch_constraint = {.on_axis = true,
-                                                          .holds = "distance of two curves"};
+constinit const ConstraintKind curve_on_curve_constraint = {.on_axis = true,
+                                                            .holds = "distance of two curves"};
 
 }  // namespace floatframe
