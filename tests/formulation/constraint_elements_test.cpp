@@ -1,8 +1,14 @@
 // Constraints between markers of any bodies, in trees and loops, rigid and flexible, in both
 // formulations: gradients, rates and accelerations against differences, what they push against
 // their rows, and the same motion in absolute as in relative coordinates.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <numbers>
+#include <set>
+
+#include "floatframe/model/element_kind.hpp"
 #include "support/random_model.hpp"
 
 namespace floatframe::test {
@@ -10,7 +16,33 @@ namespace {
 
 constexpr double time_of_rows = 0.3;
 
-/// A chain a - b from the ground and a free body c, with one constraint of each type.
+/// Along e1 and e2, from the place of the curve: a formula of each component.
+void give_curve(const Vec3& e1, const Vec3& e2, const char* first, const char* second,
+                const std::array<std::optional<SharedFormula>*, 3>& xyz) {
+  for (int k = 0; k < 3; ++k)
+    *xyz.at(k) =
+        formula(fmt::format("({:.17g}) * ({}) + ({:.17g}) * ({})", e1[k], first, e2[k], second));
+}
+
+/// A body d that slides in a plane, with a circle that is far off a parabola of the ground.
+CurveOnCurve touching_curves(RandomSystem& s) {
+  s.add_body("d", 0);
+  const Vec3 k = s.add_joint("plane", JointType::planar, ground_name, 0, "d", 0).axis.normalized();
+  Vec3 e1, e2;
+  orthonormal_complement(k, e1, e2);
+  CurveOnCurve touch;
+  touch.a = s.at(ground_name, 0);
+  touch.b = s.at("d", 0);
+  touch.axis = k;
+  give_curve(e1, e2, "u", "12 + 0.02 * u^2", {&touch.x, &touch.y, &touch.z});
+  touch.range = MatX{{-60.0, 60.0}};
+  give_curve(e1, e2, "0.4 * cos(u)", "0.3 * sin(u)", {&touch.x_2, &touch.y_2, &touch.z_2});
+  touch.range_2 = MatX{{0.0, 2.0 * std::numbers::pi}};
+  touch.closed_2 = true;
+  return touch;
+}
+
+/// A chain a - b from the ground, a free body c and d in a plane, with one constraint of each type.
 ModelDescription held_chain(int modes) {
   RandomSystem s(23);
   s.add_body("a", modes);
@@ -30,12 +62,20 @@ ModelDescription held_chain(int modes) {
   shafts.axis_2 = shafts.axis + 0.3 * s.random.vec3();
   ConstantVelocity sliding = held(ConstantVelocity{{}, Vec3::UnitZ(), true}, "b", "c", 1);
   sliding.axis_2 = sliding.axis;
+  PointOnCurve groove;
+  groove.a = s.at(ground_name, 0);
+  groove.b = s.at("c", 3);
+  give_curve(Vec3::UnitX(), Vec3::UnitY(), "u", "6 + 0.05 * u^2",
+             {&groove.x, &groove.y, &groove.z});
+  groove.range = MatX{{-30.0, 30.0}};
   s.d.constraints = {{"line", held(InLine(), "a", "c", 2), {}},
                      {"plane", held(InPlane(), "c", "b", 4), {}},
                      {"parallel", held(Parallel(), "b", ground_name, 0), {}},
                      {"square", square, {}},
                      {"shafts", shafts, {}},
-                     {"sliding", sliding, {}}};
+                     {"sliding", sliding, {}},
+                     {"groove", groove, {}},
+                     {"touch", touching_curves(s), {}}};
   return s.d;
 }
 
@@ -51,8 +91,15 @@ class ConstraintElements : public ::testing::TestWithParam<int> {
     test(absolute, qa, va);
   }
   /// Rows of the constraints: the last ones.
-  static constexpr int rows = 2 + 1 + 2 + 1 + 4 + 1;
+  static constexpr int rows = 2 + 1 + 2 + 1 + 4 + 1 + 2 + 1;
 };
+
+TEST_P(ConstraintElements, AreOfEveryType) {
+  std::set<ElementType> types;
+  for (const Element& e : model_.elements) types.insert(e.type);
+  for (const ElementType type : types_of(ElementList::constraints))
+    EXPECT_TRUE(types.contains(type)) << element_type_name(type);
+}
 
 TEST_P(ConstraintElements, HaveTheRowsOfTheirTypes) {
   in_both([&](auto& f, const VecX&, const VecX&) {
@@ -63,6 +110,8 @@ TEST_P(ConstraintElements, HaveTheRowsOfTheirTypes) {
     EXPECT_EQ(f.constraint_set().owner_of_row(first + 5), "perpendicular 'square'");
     EXPECT_EQ(f.constraint_set().owner_of_row(first + 9), "constant_velocity 'shafts'");
     EXPECT_EQ(f.constraint_set().owner_of_row(first + 10), "constant_velocity 'sliding'");
+    EXPECT_EQ(f.constraint_set().owner_of_row(first + 11), "point_on_curve 'groove'");
+    EXPECT_EQ(f.constraint_set().owner_of_row(first + 13), "curve_on_curve 'touch'");
   });
 }
 

@@ -9,11 +9,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <map>
 #include <set>
 
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/run/run.hpp"
+#include "floatframe/stepping/stepping.hpp"
 #include "support/mechanism_check.hpp"
 #include "support/random_count.hpp"
 #include "support/random_model.hpp"
@@ -132,6 +134,87 @@ int compared(const char* what, const With& with) {
 }
 
 TEST(RandomMechanisms, Couplings) { EXPECT_GT(compared("coupling", with_coupling), 50); }
+
+// One type after the other, but curves that touch, which need bodies that stay in a plane.
+TEST(RandomMechanisms, Constraints) {
+  std::vector<ElementType> types = types_of(ElementList::constraints);
+  std::erase(types, ElementType::curve_on_curve);
+  EXPECT_GT(compared("constraint",
+                     [&](const Mechanism& m, unsigned seed) {
+                       return with_constraint(m, types[seed % types.size()], seed);
+                     }),
+            40);
+}
+
+TEST(RandomMechanisms, TouchingCurves) {
+  EXPECT_GT(compared("pair of curves", with_touching_curves), 40);
+}
+
+TEST(RandomMechanisms, Cams) { EXPECT_GT(compared("cam", with_cam), 40); }
+
+TEST(RandomMechanisms, StopsAndFriction) {
+  EXPECT_GT(compared("stop or friction",
+                     [](const Mechanism& m, unsigned seed) {
+                       return with_joint_element(
+                           m,
+                           seed % 2 == 0 ? ElementType::joint_stop : ElementType::bristle_friction,
+                           seed);
+                     }),
+            50);
+}
+
+/// Each thing that can be added to a mechanism, one after the other.
+std::optional<Mechanism> with_something(unsigned seed) {
+  const Mechanism m = random_mechanism(seed);
+  const std::vector<ElementType> held = types_of(ElementList::constraints),
+                                 forces = types_of(ElementList::forces);
+  switch (seed % 6) {
+    case 0:
+      return with_coupling(m, seed);
+    case 1:
+      return with_constraint(m, held[seed / 6 % (held.size() - 1)], seed);
+    case 2:
+      return with_cam(m, seed);
+    case 3:
+      return with_joint_element(
+          m, seed / 6 % 2 == 0 ? ElementType::joint_stop : ElementType::bristle_friction, seed);
+    case 4:
+      return with_touching_curves(m, seed);
+    default:
+      return with_force(m, forces[seed / 6 % forces.size()], seed);
+  }
+}
+
+// Saved, read again and continued they give the same bits.
+TEST(RandomMechanisms, GoOnToTheBit) {
+  int continued = 0;
+  for (unsigned seed = 1; seed <= 3 * static_cast<unsigned>(random_count()); ++seed) {
+    const auto m = with_something(seed);
+    if (!m) continue;
+    try {
+      const Model model = build_model(m->description);
+      for (const Coordinates c : {Coordinates::relative, Coordinates::absolute}) {
+        SimulationOptions o{.step = 1e-3, .coordinates = c};
+        o.inertia = c == Coordinates::relative ? m->relative : m->absolute;
+        Simulation whole(model, o), later(model, o);
+        bool runs = true;
+        for (int k = 0; k < 10 && runs; ++k) runs = static_cast<bool>(whole.step());
+        if (!runs) continue;
+        later.restore(SimulationState::from_bytes(whole.save().to_bytes()));
+        for (int k = 0; k < 10 && runs; ++k) runs = whole.step() && later.step();
+        if (!runs) continue;
+        ++continued;
+        const std::span<const double> x = whole.outputs(), y = later.outputs();
+        EXPECT_EQ(std::memcmp(x.data(), y.data(), x.size_bytes()), 0)
+            << "seed " << seed << ": " << summary_of(m->description);
+      }
+    } catch (const InputError&) {  // refused
+    } catch (const RunError&) {
+    }
+  }
+  std::printf("[ figure ] continued runs %d\n", continued);
+  EXPECT_GT(continued, random_count());
+}
 
 TEST(RandomMechanisms, Controllers) { EXPECT_GT(compared("controller", with_controller), 70); }
 

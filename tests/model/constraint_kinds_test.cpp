@@ -2,9 +2,12 @@
 // is made of: gradient, velocity term, time derivatives and curvature against differences.
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/model/cam_profile.hpp"
 #include "floatframe/model/constraint_part.hpp"
+#include "floatframe/model/curve_contact.hpp"
 #include "floatframe/model/example_numbers.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/space_curve.hpp"
@@ -53,6 +56,22 @@ const SpaceCurve& curve() {
   return c;
 }
 
+/// The parabola without its slope, and a circle around the other marker.
+const CurveContact& curves() {
+  static const CurveContact c = [] {
+    PointOnCurve line, circle;
+    line.x = formula("u");
+    line.y = formula("3 + 0.05 * u^2");
+    line.range = MatX{{-20.0, 20.0}};
+    circle.x = formula("0.4 * cos(u)");
+    circle.y = formula("0.3 * sin(u)");
+    circle.range = MatX{{0.0, 2.0 * std::numbers::pi}};
+    circle.closed = true;
+    return CurveContact(SpaceCurve(line), SpaceCurve(circle), Vec3::UnitZ(), false);
+  }();
+  return c;
+}
+
 std::vector<Case> all_cases() {
   std::vector<Case> all;
   ExampleNumbers numbers(5);
@@ -68,6 +87,7 @@ std::vector<Case> all_cases() {
     p.motion = &motion();
     p.lift = &lift();
     p.curve = &curve();
+    p.curves = &curves();
     all.push_back({std::string("part_") + part_words[index_of(type)], {p}});
   }
   for (const JointType type : joint_types) {

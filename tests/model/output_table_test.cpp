@@ -33,6 +33,8 @@ std::string component(OutputType type, const OutputKind& kind) {
   if (kind.of == OutputOf::joint) return "`coordinate`: 1, 2, ... (needed if there are several)";
   if (kind.of == OutputOf::mode) return "`mode`: 1, 2, ... (required)";
   if (kind.of == OutputOf::state) return "`number`: 1, 2, ... (default 1)";
+  if (kind.one_of_values && kind.of == OutputOf::force)
+    return "`output`: a name or number, of an element with several values";
   if (kind.of == OutputOf::controller) return "`output`: a name or number (default 1)";
   if (type == OutputType::strain) return "`direction` (required)";
   if (!kind.components.key) return "";

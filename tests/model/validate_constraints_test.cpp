@@ -1,4 +1,6 @@
 // Every field of constraints, of cams and of what refers to them, one change at a time.
+#include <numbers>
+
 #include "support/valid_description.hpp"
 
 namespace floatframe::test {
@@ -24,10 +26,17 @@ ModelDescription held() {
   groove.a = place_on("ground", {0, 0, 0});
   groove.b = place_on("block", {0, 0, 1});
   groove.points = MatX{{0.0, 0.0, 0.0}, {1.0, 0.0, 1.0}, {2.0, 1.0, 1.0}};
+  CurveOnCurve touch = constraint_of(CurveOnCurve(), Vec3::UnitZ());
+  touch.x = formula("cos(u)");
+  touch.y = formula("sin(u)");
+  touch.range = MatX{{0.0, 2.0 * std::numbers::pi}};
+  touch.closed = true;
+  touch.points_2 = MatX{{-1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}};
   d.constraints = {{"line", constraint_of(InLine(), Vec3::UnitX()), {}},
                    {"square", square, {}},
                    {"shafts", shafts, {}},
-                   {"groove", groove, {}}};
+                   {"groove", groove, {}},
+                   {"touch", touch, {}}};
   Cam cam{.follower = {"nut", 0}, .cam = {"nut", 1}};
   cam.segments = MatX{{1.0, 0.1}, {2.0, -0.05}};
   d.couplings = {{"cam", cam, {}}};
@@ -65,6 +74,17 @@ TEST(ValidateConstraints, NamesWhatIsWrong) {
          keys_of<PointOnCurve>(d, 3).range = MatX{{0.0, 1.0}};
        },
        "constraints.groove.range: incomplete"},
+      {[](D& d) { keys_of<CurveOnCurve>(d, 4).axis.setZero(); },
+       "constraints.touch.axis: out_of_range"},
+      {[](D& d) { keys_of<CurveOnCurve>(d, 4).points_2.resize(0, 0); },
+       "constraints.touch: missing"},
+      {[](D& d) { keys_of<CurveOnCurve>(d, 4).range.resize(0, 0); }, "constraints.touch: missing"},
+      {[](D& d) {
+         keys_of<CurveOnCurve>(d, 4).range_2 = MatX{{0.0, 1.0}};
+       },
+       "constraints.touch.range_2: incomplete"},
+      {[](D& d) { keys_of<CurveOnCurve>(d, 4).x_2 = formula("u"); },
+       "constraints.touch: exclusive"},
       {[](D& d) { d.constraints.push_back(d.constraints[0]); }, "constraints.line: duplicate"},
       {[](D& d) { d.constraints.push_back(d.rods[0]); }, "constraints.rod.type: wrong_value"},
       {[](D& d) { d.outputs.back().entity = "x"; }, "outputs.line.F.joint_force: not_found"},

@@ -27,6 +27,7 @@ void tidy(ModelDescription& d) {
     return false;
   };
   std::erase_if(d.rods, loose);
+  std::erase_if(d.constraints, loose);
   std::erase_if(d.couplings, loose);
   std::erase_if(d.forces, loose);
   for (const ElementDescription& f : d.forces) forces.insert(f.name);
@@ -53,6 +54,7 @@ std::vector<Change> changes(const ModelDescription& d) {
   removals(out, &ModelDescription::forces, d);
   removals(out, &ModelDescription::bodies, d);
   removals(out, &ModelDescription::rods, d);
+  removals(out, &ModelDescription::constraints, d);
   removals(out, &ModelDescription::couplings, d);
   removals(out, &ModelDescription::joints, d);
   for (std::size_t k = 0; k < d.joints.size(); ++k) {

@@ -122,7 +122,8 @@ std::string summary_of(const ModelDescription& d) {
     ++counts[std::string(joint_type_name(j.type)) + (j.cut ? " cut" : "") +
              (j.motion ? " driven" : "")];
   if (!d.rods.empty()) counts["rod"] = static_cast<int>(d.rods.size());
-  for (const ElementDescription& c : d.couplings) ++counts[element_type_name(c.type())];
+  for (const auto* list : {&d.constraints, &d.couplings})
+    for (const ElementDescription& c : *list) ++counts[element_type_name(c.type())];
   for (const ElementDescription& f : d.forces) {
     ++counts[element_type_name(f.type())];
   }
@@ -153,7 +154,8 @@ std::string text_of(const ModelDescription& d) {
                      text(j.axis), text(j.axis_2), text(j.position), text(j.velocity),
                      j.motion ? " motion " + text(*j.motion) : "");
   for (const ElementDescription& r : d.rods) s += "  " + r.name + " " + text(r) + '\n';
-  for (const ElementDescription& c : d.couplings) s += "  " + c.name + " " + text(c) + '\n';
+  for (const auto* list : {&d.constraints, &d.couplings})
+    for (const ElementDescription& c : *list) s += "  " + c.name + " " + text(c) + '\n';
   for (const auto* list : {&d.forces, &d.controllers})
     for (const ElementDescription& f : *list) s += "  " + f.name + " " + text(f) + '\n';
   for (const RoadDescription& r : d.roads) {

@@ -107,6 +107,7 @@ ElementDescription random_force(ElementType type, const RandomForceEnds& ends,
     if (const auto x = value(key)) set_key_value(f, key, *x);
   if (auto* stop = std::get_if<JointStop>(&f.kind); stop && *stop->upper < *stop->lower)
     std::swap(stop->lower, stop->upper);
+  if (auto* journal = std::get_if<JournalBearing>(&f.kind)) journal->kinetic = journal->friction;
   return f;
 }
 

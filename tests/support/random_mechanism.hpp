@@ -43,6 +43,21 @@ std::optional<Mechanism> with_force(Mechanism mechanism, ElementType type, unsig
 /// order, to bodies with mass. nullopt: there are no two.
 std::optional<Mechanism> with_coupling(Mechanism mechanism, unsigned seed);
 
+/// With a constraint of this type between two places that joints use, satisfied as drawn. nullopt:
+/// there are no two on bodies with mass.
+std::optional<Mechanism> with_constraint(Mechanism mechanism, ElementType type, unsigned seed);
+
+/// With a circle on the parent of a planar joint, taken in place of a ball, and a line on its child
+/// that touch. nullopt: there is none.
+std::optional<Mechanism> with_touching_curves(Mechanism mechanism, unsigned seed);
+
+/// With a cam, by segments, points or a formula, of two coordinates as those of a coupling.
+std::optional<Mechanism> with_cam(Mechanism mechanism, unsigned seed);
+
+/// With a stop or friction on any coordinate of a joint that is no rotation vector, as the keys of
+/// joints give it. nullopt: there is none.
+std::optional<Mechanism> with_joint_element(Mechanism mechanism, ElementType type, unsigned seed);
+
 /// With a controller that measures the length of one element and pulls with another one, between
 /// other places. nullopt: there are none.
 std::optional<Mechanism> with_controller(Mechanism mechanism, unsigned seed);

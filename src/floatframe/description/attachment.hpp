@@ -54,7 +54,7 @@ struct SignalDescription : TimeFunction {
   std::string input;
   SignalSource source = SignalSource::none;
   std::string element;  ///< of the source
-  std::string value;    ///< of a controller with several: its name, or its number from 1
+  std::string value;    ///< of an element with several: its name, or its number from 1
   double factor = 1.0;
 
   SignalDescription() = default;

@@ -51,7 +51,7 @@ std::string none_given(const std::vector<const char*>& keys) {
 std::string no_signals() { return "found an empty list, expected signals"; }
 
 std::string no_such_value(const std::string& found, const std::vector<std::string>& names) {
-  if (names.empty()) return "found the output '" + found + "' of a controller with one value";
+  if (names.empty()) return "found the output '" + found + "' of an element with one value";
   std::vector<const char*> words;
   for (std::size_t k = 0; k < std::min<std::size_t>(names.size(), 20); ++k)
     words.push_back(names[k].c_str());

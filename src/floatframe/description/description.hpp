@@ -199,7 +199,7 @@ struct OutputDescription {
   AttachmentDescription at;  ///< for point quantities (node/point given) or body quantities
   AttachmentDescription to;  ///< the second of two points
   std::string entity;        ///< joint, force, rod, constraint or coupling name
-  std::string value;         ///< of a controller with several: its name, or its number from 1
+  std::string value;         ///< of an element with several: its name, or its number from 1
   bool rod = false;          ///< a reaction of a rod
   bool constraint = false;   ///< a reaction of a constraint
   bool about = false;        ///< a reaction about the point `at`, else about that of joint or rod

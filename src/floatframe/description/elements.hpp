@@ -161,6 +161,25 @@ struct JointStop {
   double least_speed = 0.01;  ///< slower contacts are damped as one at this speed [m/s] or [rad/s]
 };
 
+/// A shaft (`to`) in a bush (`from`), which carries the axis, with a clearance: beyond it the push
+/// of a UnilateralSpring on the eccentricity, with the friction of bristles on the surface.
+struct JournalBearing {
+  AttachmentDescription from, to;
+  Vec3 axis = Vec3::UnitZ();
+  double radius = 0.0;     ///< of the shaft [m]
+  double clearance = 0.0;  ///< radius of the bush less that of the shaft [m]
+  double stiffness = 0.0;  ///< [N/m^exponent]
+  double exponent = 1.0;
+  double restitution = 1.0;        ///< in (0, 1]
+  double least_speed = 0.01;       ///< slower contacts are damped as one at this speed [m/s]
+  std::optional<double> friction;  ///< coefficient at which it begins to slide; absent: none
+  std::optional<double> kinetic;   ///< the same while it slides; absent: equal to friction
+  double stribeck = 0.0;           ///< [m/s]; 0: kinetic at any speed
+  double deflection = 1e-5;        ///< of the bristles at `friction` [m]
+  double bristle_damping = 0.0;    ///< of the bristles per normal force [s/m]
+  double elastic = 0.95;  ///< of the largest deflection, up to which the bristles do not slide
+};
+
 /// Without mass, keeps the distance between two points, or prescribes it: a stiff cylinder.
 struct Rod {
   AttachmentDescription a, b;
@@ -329,7 +348,9 @@ struct Delay {
   entry(perpendicular, Perpendicular)   \
   entry(constant_velocity, ConstantVelocity) \
   entry(cam, Cam)                       \
-  entry(point_on_curve, PointOnCurve)
+  entry(point_on_curve, PointOnCurve)   \
+  entry(journal_bearing, JournalBearing) \
+  entry(curve_on_curve, CurveOnCurve)
 // clang-format on
 
 #define FLOATFRAME_ENTRY(name, Keys) name,

@@ -41,6 +41,19 @@ struct PointOnCurve {
   bool closed = false;
 };
 
+/// A curve that is fixed in the body of a touches one that is fixed in the body of b, in planes
+/// normal to the axis: each as that of a PointOnCurve, the second one from the point of b.
+struct CurveOnCurve : AxisConstraint {
+  MatX points = {};
+  std::optional<SharedFormula> x = {}, y = {}, z = {};
+  MatX range = {};
+  bool closed = false;
+  MatX points_2 = {};
+  std::optional<SharedFormula> x_2 = {}, y_2 = {}, z_2 = {};
+  MatX range_2 = {};
+  bool closed_2 = false;
+};
+
 /// How the rise of a cam goes from its beginning to its end (docs/model-file.md).
 enum class CamLaw { harmonic, cycloidal, polynomial_345, polynomial_4567 };
 inline constexpr const char* cam_laws[] = {"harmonic", "cycloidal", "polynomial_345",

@@ -200,6 +200,11 @@ class FormulaConnection {
     return b_.element_names[index_of(list)].names();
   }
 
+  std::vector<std::string> values_of_force(const std::string& name) const {
+    const int k = b_.element(ElementList::forces, name);
+    return k < 0 ? std::vector<std::string>() : b_.model.elements[k].values;
+  }
+
   /// The second argument: a component, or the number of a coordinate from 1.
   bool detail(const FormulaReference& r, OutputDescription& o) const {
     const OutputComponents& components = output_kind(o.type).components;
@@ -211,7 +216,9 @@ class FormulaConnection {
       return wrong(ErrorCode::wrong_value,
                    sentences::formula_component(r.function, r.detail, words));
     }
-    if (output_kind(o.type).of == OutputOf::controller) {
+    const OutputKind& kind = output_kind(o.type);
+    if (kind.one_of_values &&
+        (kind.of == OutputOf::controller || !values_of_force(r.name).empty())) {
       o.value = r.detail;
       return true;
     }

@@ -77,20 +77,14 @@ bool ModelBuilder::subject(const OutputDescription& o, Output& out, const std::s
       out.joint = joint_names.index(o.entity);
       return out.joint >= 0;
     case OutputOf::force:
-      return of_list(ElementList::forces);
+      return of_list(ElementList::forces) &&
+             (!output_kind(o.type).one_of_values || value_of_element(o, out, what));
     case OutputOf::rod:
       return of_list(ElementList::rods);
     case OutputOf::coupling:
       return of_list(ElementList::couplings);
-    case OutputOf::controller: {
-      if (!of_list(ElementList::controllers)) return false;
-      const std::vector<std::string>& values = model.elements[out.element].values;
-      out.component = value_index(values, o.value);
-      if (out.component < 0)
-        errors.add(ErrorCode::not_found, o.origin.mark,
-                   what + ": " + sentences::no_such_value(o.value, values));
-      return out.component >= 0;
-    }
+    case OutputOf::controller:
+      return of_list(ElementList::controllers) && value_of_element(o, out, what);
     case OutputOf::motion: {
       const Joint& joint = model.joints[joint_names.index(o.entity)];
       out.element = joint.motions.empty() ? joint.motion : joint.motions[o.component];
@@ -110,6 +104,17 @@ bool ModelBuilder::subject(const OutputDescription& o, Output& out, const std::s
       return reaction(o, out, who);
   }
   return false;
+}
+
+/// One of the values of its element.
+bool ModelBuilder::value_of_element(const OutputDescription& o, Output& out,
+                                    const std::string& what) {
+  const std::vector<std::string>& values = model.elements[out.element].values;
+  out.component = value_index(values, o.value);
+  if (out.component < 0)
+    errors.add(ErrorCode::not_found, o.origin.mark,
+               what + ": " + sentences::no_such_value(o.value, values));
+  return out.component >= 0;
 }
 
 bool ModelBuilder::unit(const OutputDescription& o, Output& out, const std::string& who) {

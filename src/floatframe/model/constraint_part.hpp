@@ -19,6 +19,7 @@ namespace floatframe {
 
 struct CamProfile;
 class SpaceCurve;
+class CurveContact;
 
 struct ConstraintPart {
   ConstraintType type = ConstraintType::coincident;
@@ -36,8 +37,9 @@ struct ConstraintPart {
   double force = 1.0;  ///< of an element: its force per multiplier, tension, along a coordinate, or
                        ///< a torque
   const TimeFunction* motion = nullptr;
-  const CamProfile* lift = nullptr;   ///< of a cam
-  const SpaceCurve* curve = nullptr;  ///< that b stays on
+  const CamProfile* lift = nullptr;      ///< of a cam
+  const SpaceCurve* curve = nullptr;     ///< that b stays on
+  const CurveContact* curves = nullptr;  ///< that touch
   ConstraintOwner owner;
   int rows() const noexcept;
   /// The joint whose wrench includes that of the part; -1: none.

@@ -85,6 +85,8 @@ struct OutputKind {
   ElementQuantity needs = ElementQuantity::force;
   /// It is the result `needs` of an element that signals are made of.
   bool is_signal = false;
+  /// One of the values of its element, if that has several: the key `output`.
+  bool one_of_values = false;
   bool about_point = false;  ///< it is about a point, the key `about`
   bool named_unit = false;   ///< its unit is any text of the user
   MotionNeeds needs_of_motion = {};

@@ -32,6 +32,8 @@ class SpaceCurve {
   /// Step time.
   Value at(double u) const noexcept;
   Foot foot(const Vec3& p) const noexcept;
+  /// Of the samples.
+  const std::vector<double>& parameters() const noexcept { return u_; }
   /// The shortest |c'| of the samples, relative to the longest.
   double slowest() const;
 

@@ -110,9 +110,11 @@ struct ElementValidation {
 
   void signal(const std::string& path, const SignalDescription& s) const {
     entity.signal(path, s, names);
-    if (s.source == SignalSource::controller)
-      if (const auto k = names.controllers.find(s.element)) {
-        const std::vector<std::string> values = value_names(d.controllers[*k].kind);
+    const bool of_controller = s.source == SignalSource::controller;
+    if (of_controller || s.source == SignalSource::force)
+      if (const auto k = (of_controller ? names.controllers : names.forces).find(s.element)) {
+        const std::vector<std::string> values =
+            value_names((of_controller ? d.controllers : d.forces)[*k].kind);
         if (value_index(values, s.value) < 0)
           entity.error(ErrorCode::not_found, path, sentences::no_such_value(s.value, values));
       }

@@ -307,7 +307,7 @@ bool read_source(const ModelInstance& self, YamlSection& section, SignalDescript
     const auto name = self.reference(
         source == SignalSource::controller ? EntityKind::controller : EntityKind::force, *value);
     signal.element = name.value_or("");
-    if (source != SignalSource::controller) continue;
+    if (source != SignalSource::controller && source != SignalSource::force) continue;
     if (const auto v = section.get("output")) signal.value = read_value_name(*v);
   }
   if (signal.source == SignalSource::none) return false;

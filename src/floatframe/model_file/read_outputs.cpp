@@ -70,7 +70,7 @@ class OutputReader {
       case OutputOf::mode:
         return mode(s, what, o);
       case OutputOf::force:
-        return force(kind, what, o);
+        return force(kind, s, what, o);
       case OutputOf::gauge:
         return read_gauge(self_, s, what, o);
       case OutputOf::reaction:
@@ -245,7 +245,9 @@ class OutputReader {
     return to && put(point(*to), o.to) && first;
   }
 
-  bool force(const OutputKind& kind, const YamlValue& what, OutputDescription& o) {
+  bool force(const OutputKind& kind, YamlSection& s, const YamlValue& what, OutputDescription& o) {
+    if (kind.one_of_values)
+      if (const auto value = s.get("output")) o.value = read_value_name(*value);
     if (!put(self_.reference(EntityKind::force, what), o.entity)) return false;
     const auto type = model_.element_types.find(o.entity);
     if (type != model_.element_types.end() && !element_has(type->second, kind.needs))

@@ -1,19 +1,11 @@
-// Friction by the deflection z of bristles (Dupont et al. 2002; LuGre: Canudas de Wit et al. 1995),
+// Friction on a coordinate of a joint by the bristles of bristle_law.hpp, which give f and zdot,
 // with the normal force N as a factor:
-//   zdot = v - a(z, v) |v| z / z_s(v),   z_s = g(v) / sigma_0                                  (1)
-//   g    = kinetic + (breakaway - kinetic) exp(-(v / stribeck)^2)                              (2)
-//   F    = N (sigma_0 z + sigma_1 zdot) + viscous v,  -F acts on the coordinate               (3)
-//   N    = radius max(0, normal + preload); radius without both
-// a = 0 up to the deflection z_e = elastic z_s, where the bristles only bend, so nothing creeps
-// below breakaway; 1 from z_s on, where all of them slide; between them half a wave of the sine;
-// and 0 where v brings z back. elastic = 0: a = 1, the LuGre model, which creeps under loads that
-// vary. z is measured along the coordinate.
-//   row          c = N (sigma_0 z_v + sigma_1 (f_v + f_z z_v)) + viscous, z_v = f_v / (w - f_z)
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
+//   F = N f + viscous v,  -F acts on the coordinate
+//   N = radius max(0, normal + preload); radius without both
+// z is measured along the coordinate.
+//   row          c = N f_v + viscous, f_v with z following
 #include "floatframe/description/sentences.hpp"
+#include "floatframe/model/bristle_law.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/port_measures.hpp"
 
@@ -21,37 +13,10 @@ namespace floatframe {
 
 namespace {
 
-template <class S>
-S sliding_part(const S& z, const S& v, const S& largest, double elastic) noexcept {
-  using std::abs;
-  using std::sin;
-  if (elastic == 0.0) return 1.0;
-  if ((value_of(z) > 0.0) != (value_of(v) > 0.0)) return 0.0;
-  const S part = abs(z) / largest;
-  if (part <= elastic) return 0.0;
-  if (part >= 1.0) return 1.0;
-  const double middle = 0.5 * (1.0 + elastic);
-  return 0.5 + 0.5 * sin(S((std::numbers::pi / (1.0 - elastic)) * (part - middle)));
-}
-
-/// z_s of (1), (2)
-template <class S>
-S largest_deflection(const BristleFriction& keys, const S& v) noexcept {
-  using std::exp;
-  const double kinetic = keys.kinetic.value_or(keys.breakaway);
-  S level = kinetic;
-  if (keys.stribeck > 0.0)
-    level += (keys.breakaway - kinetic) * exp(S(-(v * v) / (keys.stribeck * keys.stribeck)));
-  return level / keys.stiffness;
-}
-
-/// (1)
-template <class S>
-S bristle_rate(const BristleFriction& keys, const S& z, const S& v) noexcept {
-  using std::abs;
-  const S largest = largest_deflection(keys, v);
-  return v - sliding_part(z, v, largest, keys.elastic) * v * abs(z) / largest *
-                 ((value_of(z) > 0.0) == (value_of(v) > 0.0) ? 1.0 : -1.0);
+Bristles bristles_of(const BristleFriction& keys) noexcept {
+  return {keys.breakaway, keys.kinetic.value_or(keys.breakaway),
+          keys.stribeck,  keys.stiffness,
+          keys.damping,   keys.elastic};
 }
 
 /// N
@@ -69,15 +34,14 @@ void bristle_friction_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
   const AxisMeasure<S> m = coordinate_measure(in, in.template data<MeasuredCoordinate>());
   const bool clamped = in.element.signals[0].given;
   const S normal = normal_of_bristles(keys, in);
-  const S z = in.state(0), v = m.rate, flow = bristle_rate(keys, z, v);
+  const Bristles bristles = bristles_of(keys);
+  const S z = in.state(0), v = m.rate, flow = bristle_rate(bristles, z, v);
   out.state_rates[0] = flow;
   double slope = 0.0;
   if constexpr (std::is_same_v<S, double>) {
-    const Dual d = bristle_rate(keys, Dual::variable(z, 0), Dual::variable(v, 1));
-    const double f_z = d.d[0], f_v = d.d[1], z_v = f_v * in.followed(f_z);
-    out.state_slopes[0] = f_z;
-    slope =
-        value_of(normal) * (keys.stiffness * z_v + keys.damping * (f_v + f_z * z_v)) + keys.viscous;
+    const BristleSlopes of = bristle_slopes(bristles, in, z, v);
+    out.state_slopes[0] = of.of_state;
+    slope = value_of(normal) * of.of_speed + keys.viscous;
   }
   pull_back(m, S(normal * S(keys.stiffness * z + keys.damping * flow) + keys.viscous * v), 0.0,
             slope, out);
@@ -152,13 +116,9 @@ bool bristle_friction_build(ElementBuild& build) {
   return true;
 }
 
-/// A joint that moves at a start slides: faster than this [m/s or rad/s].
-constexpr double least_sliding = 1e-3;
-
 void bristle_friction_start(const Ports& in, double* states) noexcept {
-  const double v = coordinate_measure(in, in.data<MeasuredCoordinate>()).rate;
-  const auto& keys = in.keys<BristleFriction>();
-  states[0] = std::abs(v) < least_sliding ? 0.0 : std::copysign(largest_deflection(keys, v), v);
+  states[0] = bristle_start(bristles_of(in.keys<BristleFriction>()),
+                            coordinate_measure(in, in.data<MeasuredCoordinate>()).rate);
 }
 
 constexpr const char* turning_axis_of_friction = "the turning of the axis with its body";

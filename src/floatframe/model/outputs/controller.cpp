@@ -14,6 +14,7 @@ constinit const OutputKind controller_output = {.about = "its value, or one of s
                                                 .of = OutputOf::controller,
                                                 .unit = "-",
                                                 .is_signal = true,
+                                                .one_of_values = true,
                                                 .named_unit = true};
 
 }  // namespace floatframe

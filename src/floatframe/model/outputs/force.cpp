@@ -1,19 +1,30 @@
-// Scalar force of a force element, tension positive [N], or its torque [N m].
+// Scalar force of a force element, tension positive [N], or its torque [N m]; or another value of
+// one that has several.
 #include "floatframe/model/output_kind.hpp"
 
 namespace floatframe {
 
+namespace {
+
+const char* unit_of_value(const Model& model, const Output& output) {
+  if (output.component > 0) return axis_units(true).force;
+  return unit_of_force<ElementQuantity::force>(model, output);
+}
+
+}  // namespace
+
 template <>
 double output_value_of<OutputType::force>(const SystemMotion& motion, const Output& output,
                                           FollowedOutput&) noexcept {
-  return motion.effort(output.element).force;
+  return motion.effort(output.element).result(output.component > 0 ? 2 + output.component : 0);
 }
 
 constinit const OutputKind force_output = {
-    .about = "force or torque, tension positive; of a tyre the contact force",
+    .about = "force or torque, tension positive; of a tyre or bearing the contact force",
     .of = OutputOf::force,
     .unit = "N or N m",
-    .unit_of = unit_of_force<ElementQuantity::force>,
-    .is_signal = true};
+    .unit_of = unit_of_value,
+    .is_signal = true,
+    .one_of_values = true};
 
 }  // namespace floatframe
