@@ -24,10 +24,12 @@ ModelDescription held() {
   groove.a = place_on("ground", {0, 0, 0});
   groove.b = place_on("block", {0, 0, 1});
   groove.points = MatX{{0.0, 0.0, 0.0}, {1.0, 0.0, 1.0}, {2.0, 1.0, 1.0}};
+  SlideAlong path{groove.a, groove.b, groove.points};
   d.constraints = {{"line", constraint_of(InLine(), Vec3::UnitX()), {}},
                    {"square", square, {}},
                    {"shafts", shafts, {}},
-                   {"groove", groove, {}}};
+                   {"groove", groove, {}},
+                   {"path", path, {}}};
   Cam cam{.follower = {"nut", 0}, .cam = {"nut", 1}};
   cam.segments = MatX{{1.0, 0.1}, {2.0, -0.05}};
   d.couplings = {{"cam", cam, {}}};
@@ -65,6 +67,19 @@ TEST(ValidateConstraints, NamesWhatIsWrong) {
          keys_of<PointOnCurve>(d, 3).range = MatX{{0.0, 1.0}};
        },
        "constraints.groove.range: incomplete"},
+      {[](D& d) { keys_of<SlideAlong>(d, 4).points.conservativeResize(1, 3); },
+       "constraints.path.points: wrong_count"},
+      {[](D& d) { keys_of<SlideAlong>(d, 4).points(2, 0) = inf; },
+       "constraints.path.points: out_of_range"},
+      {[](D& d) {
+         keys_of<SlideAlong>(d, 4).points.row(2) = keys_of<SlideAlong>(d, 4).points.row(1);
+       },
+       "constraints.path.points: geometry"},
+      {[](D& d) {
+         d.outputs.back().type = OutputType::travel;
+         d.outputs.back().constraint = false;
+       },
+       "outputs.line.F.travel: wrong_value"},
       {[](D& d) { d.constraints.push_back(d.constraints[0]); }, "constraints.line: duplicate"},
       {[](D& d) { d.constraints.push_back(d.rods[0]); }, "constraints.rod.type: wrong_value"},
       {[](D& d) { d.outputs.back().entity = "x"; }, "outputs.line.F.joint_force: not_found"},

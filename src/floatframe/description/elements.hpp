@@ -329,7 +329,8 @@ struct Delay {
   entry(perpendicular, Perpendicular)   \
   entry(constant_velocity, ConstantVelocity) \
   entry(cam, Cam)                       \
-  entry(point_on_curve, PointOnCurve)
+  entry(point_on_curve, PointOnCurve)   \
+  entry(slide_along, SlideAlong)
 // clang-format on
 
 #define FLOATFRAME_ENTRY(name, Keys) name,

@@ -82,6 +82,8 @@ bool ModelBuilder::subject(const OutputDescription& o, Output& out, const std::s
       return of_list(ElementList::rods);
     case OutputOf::coupling:
       return of_list(ElementList::couplings);
+    case OutputOf::path:
+      return of_list(ElementList::constraints);
     case OutputOf::controller: {
       if (!of_list(ElementList::controllers)) return false;
       const std::vector<std::string>& values = model.elements[out.element].values;

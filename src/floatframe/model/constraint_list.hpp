@@ -19,7 +19,8 @@
   entry(constant_velocity)            \
   entry(cam_angle)                    \
   entry(cam_displacement)             \
-  entry(on_curve)
+  entry(on_curve)                     \
+  entry(drive_on_curve)
 // clang-format on
 
 namespace floatframe {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "floatframe/model/axis_constraint.hpp"
+#include "floatframe/model/curve_points.hpp"
 #include "floatframe/model/space_curve.hpp"
 
 namespace floatframe {
@@ -46,20 +47,6 @@ constexpr ElementKey point_on_curve_keys[] = {
      .about = "the curve ends where it begins; a closed spline needs no last point there",
      .member = described_by<&PointOnCurve::closed>}};
 
-/// Neighbours are apart, those of a closed curve in a ring.
-void point_on_curve_apart(const ElementCheck& check, const MatX& points, bool closed) {
-  const Eigen::Index n = points.rows(), least = closed ? 3 : 2;
-  if (n < least)
-    return check.error(ErrorCode::wrong_count, "points",
-                       fmt::format("found {}, expected at least {} points [x, y, z]",
-                                   n == 1 ? "1 point" : "2 points", least));
-  for (Eigen::Index i = closed ? 0 : 1; i < n; ++i)
-    if ((points.row(i) - points.row(i > 0 ? i - 1 : n - 1)).norm() < 1e-9)
-      return check.error(
-          ErrorCode::geometry, "points",
-          fmt::format("found row {} at the point before it, expected points apart", i + 1));
-}
-
 void point_on_curve_validate(const ElementCheck& check) {
   check.two_bodies("from", "to");
   const bool points = check.given("points");
@@ -70,7 +57,7 @@ void point_on_curve_validate(const ElementCheck& check) {
                               : "missing key 'points', or formulas 'x', 'y', 'z' with 'range'");
   const MatX rows = check.matrix("points"), range = check.matrix("range");
   if (check.good("points") && rows.rows() > 0)
-    point_on_curve_apart(check, rows, check.flag("closed"));
+    validate_curve_points(check, rows, check.flag("closed"));
   if (check.wrong.contains("range")) return;
   if (formulas && range.size() == 0)
     return check.error(ErrorCode::missing, "", "missing key 'range', of u in the formulas");
@@ -116,9 +103,9 @@ void point_on_curve_rows(const Model& model, const Element& element, ConstraintP
 
 void point_on_curve_mirror(ElementDescription& element, const Placement& x) {
   PointOnCurve& keys = *std::get_if<PointOnCurve>(&element.kind);
+  mirror_curve_points(keys.points, x);
   for (int k = 0; k < 3; ++k) {
     if (!(x.P(k, k) < 0.0)) continue;
-    if (keys.points.rows() > 0) keys.points.col(k) *= -1.0;
     std::optional<SharedFormula>& f = k == 0 ? keys.x : k == 1 ? keys.y : keys.z;
     if (!f || !*f) continue;
     auto turned = std::make_shared<Formula>(**f);
