@@ -20,6 +20,7 @@ std::string of(OutputOf what) {
                                       "rod",
                                       "joint with a motion",
                                       "[coupling](#couplings)",
+                                      "[constraint](#constraints) with a path",
                                       "[controller](#controllers)",
                                       "force element or controller",
                                       "[formula](#formulas)",

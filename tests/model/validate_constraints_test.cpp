@@ -32,11 +32,13 @@ ModelDescription held() {
   touch.range = MatX{{0.0, 2.0 * std::numbers::pi}};
   touch.closed = true;
   touch.points_2 = MatX{{-1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}};
+  SlideAlong path{groove.a, groove.b, groove.points};
   d.constraints = {{"line", constraint_of(InLine(), Vec3::UnitX()), {}},
                    {"square", square, {}},
                    {"shafts", shafts, {}},
                    {"groove", groove, {}},
-                   {"touch", touch, {}}};
+                   {"touch", touch, {}},
+                   {"path", path, {}}};
   Cam cam{.follower = {"nut", 0}, .cam = {"nut", 1}};
   cam.segments = MatX{{1.0, 0.1}, {2.0, -0.05}};
   d.couplings = {{"cam", cam, {}}};
@@ -85,6 +87,19 @@ TEST(ValidateConstraints, NamesWhatIsWrong) {
        "constraints.touch.range_2: incomplete"},
       {[](D& d) { keys_of<CurveOnCurve>(d, 4).x_2 = formula("u"); },
        "constraints.touch: exclusive"},
+      {[](D& d) { keys_of<SlideAlong>(d, 5).points.conservativeResize(1, 3); },
+       "constraints.path.points: wrong_count"},
+      {[](D& d) { keys_of<SlideAlong>(d, 5).points(2, 0) = inf; },
+       "constraints.path.points: out_of_range"},
+      {[](D& d) {
+         keys_of<SlideAlong>(d, 5).points.row(2) = keys_of<SlideAlong>(d, 5).points.row(1);
+       },
+       "constraints.path.points: geometry"},
+      {[](D& d) {
+         d.outputs.back().type = OutputType::travel;
+         d.outputs.back().constraint = false;
+       },
+       "outputs.line.F.travel: wrong_value"},
       {[](D& d) { d.constraints.push_back(d.constraints[0]); }, "constraints.line: duplicate"},
       {[](D& d) { d.constraints.push_back(d.rods[0]); }, "constraints.rod.type: wrong_value"},
       {[](D& d) { d.outputs.back().entity = "x"; }, "outputs.line.F.joint_force: not_found"},

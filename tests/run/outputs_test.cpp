@@ -26,6 +26,7 @@ bodies:
   puck: {rigid: {mass: 2, centre_of_mass: [2, 1, 0.5], inertia: [0.1, 0.2, 0.3]}}
   bob: {position: [3, 0.3, 1], rigid: {mass: 1, inertia: [0.1, 0.2, 0.3]}}
   gear: {position: [3, 1, 1], rigid: {mass: 1, inertia: [0.1, 0.2, 0.3]}}
+  bead: {position: [5, 0, 0], rigid: {mass: 1, inertia: [0.1, 0.2, 0.3]}}
 joints:
   hinge: {type: revolute, child: arm, at: hinge, axis: y, position: 0.4, velocity: 1.5}
   drive: {type: revolute, child: bob, at: [3, 0, 1.2], axis: [0, 1, 1],
@@ -33,6 +34,12 @@ joints:
   loose: {type: free, child: puck, at: [2, 1, 0.5], velocity: [3, -0.4, 0.5, 1, 2, -3]}
   shaft: {type: revolute, child: gear, at: [3, 1, 1.2], axis: z}
 couplings: {mesh: {terms: [{joint: drive}, {joint: shaft, factor: -2}]}}
+constraints:
+  rail:
+    type: slide_along
+    from: {body: ground, at: [5, 0, 0]}
+    to: {body: bead}
+    points: [[0, 0, 0], [1, 0, -0.2], [2, 0.3, 0]]
 rods: {tie: {from: {body: ground, at: [1, 2, 1.5]}, to: {body: puck}}}
 forces:
   dash: {type: maxwell, from: {body: arm, at: tip}, to: {body: puck}, branches: [[100, 20]]}
@@ -58,6 +65,7 @@ std::string columns_of_type(OutputType type) {
                                            "tie",
                                            "drive",
                                            "mesh",
+                                           "rail",
                                            "hold",
                                            "dash",
                                            "3 * length(coil) + 2",

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string>
+
 namespace floatframe {
 
 std::optional<CutPair> cut_pair(const VecX& frequencies, int equal_left_out) {
@@ -14,7 +17,8 @@ std::optional<CutPair> cut_pair(const VecX& frequencies, int equal_left_out) {
 }
 
 const char* mode_number_key(const FlexibleBody& body) {
-  const bool bars = !body.mode_names.empty() && body.mode_names.back().rfind("normal ", 0) == 0;
+  const bool bars = std::ranges::any_of(
+      body.mode_names, [](const std::string& name) { return name.starts_with("normal "); });
   return bars ? "normal_modes" : "modes";
 }
 

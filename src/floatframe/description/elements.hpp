@@ -350,7 +350,8 @@ struct Delay {
   entry(cam, Cam)                       \
   entry(point_on_curve, PointOnCurve)   \
   entry(journal_bearing, JournalBearing) \
-  entry(curve_on_curve, CurveOnCurve)
+  entry(curve_on_curve, CurveOnCurve)   \
+  entry(slide_along, SlideAlong)
 // clang-format on
 
 #define FLOATFRAME_ENTRY(name, Keys) name,

@@ -54,6 +54,14 @@ struct CurveOnCurve : AxisConstraint {
   bool closed_2 = false;
 };
 
+/// The point of b stays on the line through nodes of the body of a, which bends with it, or on a
+/// spline that is fixed in a rigid one.
+struct SlideAlong {
+  AttachmentDescription a, b;
+  MatX points = {};  ///< n x 3 [m], from the point of a along the axes of the world as drawn
+  std::optional<TimeFunction> motion = {};  ///< the travel from the first point on [m]
+};
+
 /// How the rise of a cam goes from its beginning to its end (docs/model-file.md).
 enum class CamLaw { harmonic, cycloidal, polynomial_345, polynomial_4567 };
 inline constexpr const char* cam_laws[] = {"harmonic", "cycloidal", "polynomial_345",

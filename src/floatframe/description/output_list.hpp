@@ -35,6 +35,8 @@
   entry(strain)                   \
   entry(section_force)            \
   entry(coupling_force)           \
+  entry(travel)                   \
+  entry(travel_rate)              \
   entry(controller)               \
   entry(quaternion)               \
   entry(distance_rate)            \

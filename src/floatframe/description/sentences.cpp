@@ -266,6 +266,11 @@ std::string length_of_driven_rod() {
   return "found with a motion, which decides it; remove one of them";
 }
 
+std::string no_path(const std::string& constraint) {
+  return "constraint '" + constraint +
+         "' has no path, expected one of type 'slide_along', or 'point_on_curve' with points";
+}
+
 std::string rod_motion(double length) {
   return "found a motion with the length " + number_text(length) +
          " m at t = 0, expected a positive one";

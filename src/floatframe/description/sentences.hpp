@@ -140,6 +140,7 @@ std::string target_without_law();
 std::string stop_with_target();
 std::string motion_and_start_value();
 std::string length_of_driven_rod();
+std::string no_path(const std::string& constraint);
 std::string rod_motion(double length);
 std::string driven_twice(const std::string& coordinate);
 /// Components of rotation vectors.

@@ -194,6 +194,22 @@ class FlexibleCheck {
     }
   }
 
+  /// Bars of a path, and directions of forces on it.
+  void path() {
+    for (std::size_t i = 0; i < f_.path.size(); ++i) {
+      const NodeDofs& d = f_.path[i];
+      const std::string item = "path_shapes[" + std::to_string(i + 1) + "].";
+      if (d.mask == 0 || d.mask > 63u)
+        group_.error(ErrorCode::wrong_value, item + "dofs",
+                     "found the mask " + std::to_string(d.mask) +
+                         ", expected directions: bits 0 to 5 = x, y, z, rx, ry, rz");
+      if (!geometry_.contains(d.node))
+        group_.error(ErrorCode::not_found, item + "bar",
+                     "found '" + d.node + "', expected the name of a bar of this body" +
+                         did_you_mean(d.node, keys_of(geometry_)));
+    }
+  }
+
   void modes() {
     if (f_.analytic) {
       group_.whole("analytic.dynamic_per_plane", f_.analytic->dynamic_per_plane,
@@ -213,6 +229,7 @@ class FlexibleCheck {
     const std::size_t before = group_.errors.size();
     dofs("clamped", f_.clamped, &clamped);
     dofs("static_modes", f_.interfaces, nullptr);
+    path();
     const bool selection = group_.errors.size() == before;
     const bool number = group_.whole("normal_modes", f_.normal_modes, rules::normal_modes);
     if (f_.max_frequency != 0.0)
@@ -221,7 +238,7 @@ class FlexibleCheck {
       group_.complain(
           ErrorCode::out_of_range, "normal_modes",
           sentences::more_modes_than_dofs(f_.normal_modes, nodes_ + 1, isoparametric()));
-    if (f_.interfaces.empty() && f_.normal_modes == 0 && f_.max_frequency == 0.0)
+    if (f_.interfaces.empty() && f_.path.empty() && f_.normal_modes == 0 && f_.max_frequency == 0.0)
       group_.error(ErrorCode::missing, sentences::no_modes());
     if (selection)
       group_.complain(ErrorCode::singular, "clamped", sentences::body_reference(clamped));

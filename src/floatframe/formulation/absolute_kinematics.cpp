@@ -30,6 +30,10 @@ AbsoluteKinematics::AbsoluteKinematics(const Model& model, ConstraintSet& constr
     AbsoluteMarker d;
     static_cast<LocalMarker&>(d) = LocalMarker(model_, m);
     d.outer.a_bias.setZero();
+    if (d.slides) {
+      d.s.foot = &d.slides->foot;
+      sliding_.push_back(static_cast<int>(markers_.size()));
+    }
     markers_.push_back(std::move(d));
   }
   place_outer_points(constraints);
@@ -60,7 +64,7 @@ void AbsoluteKinematics::place_outer_points(const ConstraintSet& constraints) {
     if (!constraint_kind(p.type).points) continue;
     for (const int marker : {p.a, p.b}) {
       AbsoluteMarker& m = markers_[marker];
-      if (m.body < 0 || !m.local || m.point >= 0) continue;
+      if (m.body < 0 || !m.local || m.slides || m.point >= 0) continue;
       AbsoluteBody& b = bodies_[m.body];
       int local = -1;
       for (std::size_t k = 0; k < b.point_marker.size(); ++k) {
@@ -126,6 +130,13 @@ void AbsoluteKinematics::positions_of(const VecX& q) noexcept {
     if (m.point < 0) continue;
     m.outer.r = q.segment<3>(m.point);
     m.outer.R = m.s.R;
+  }
+  for (const int k : sliding_) {
+    AbsoluteMarker& m = markers_[k];
+    const AbsoluteBody& b = bodies_[m.body];
+    m.slide(b.A.transpose() * (constraint_state(m.guide).r - b.p_WB), b.y);
+    m.world_gradients(b.A);
+    m.s.r.noalias() = b.p_WB + b.A * m.p_B;
   }
 }
 

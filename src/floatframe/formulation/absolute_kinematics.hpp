@@ -125,7 +125,8 @@ class AbsoluteKinematics {
   const Model& model_;
   std::vector<AbsoluteBody> bodies_;
   std::vector<AbsoluteMarker> markers_;
-  bool stiffens_ = false;  ///< a body has geometric stiffening
+  std::vector<int> sliding_;  ///< markers that slide
+  bool stiffens_ = false;     ///< a body has geometric stiffening
   int size_ = 0;
   VecX a_;
 };

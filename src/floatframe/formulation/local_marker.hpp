@@ -15,6 +15,7 @@
 #include <memory>
 
 #include "floatframe/formulation/bent_columns.hpp"
+#include "floatframe/formulation/sliding_point.hpp"
 #include "floatframe/math/contracts.hpp"
 #include "floatframe/math/so3.hpp"
 #include "floatframe/model/model.hpp"
@@ -35,10 +36,12 @@ struct LocalMarker {
   Vec3 o_B = Vec3::Zero();                               ///< o, from the node [m]
   Mat3 H = Mat3::Identity();                             ///< at theta
   // Fixed.
-  Vec3 node_p = Vec3::Zero();        ///< p [m]
-  Pose X_NM;                         ///< p_NM, R_NM
-  Mat3X X, X_theta;                  ///< 3 x nm; with `second` at y
-  std::unique_ptr<BentNode> second;  ///< of a node with h or theta on a body that stiffens
+  Vec3 node_p = Vec3::Zero();            ///< p [m]
+  Pose X_NM;                             ///< p_NM, R_NM
+  Mat3X X, X_theta;                      ///< 3 x nm; with `second` at y
+  std::unique_ptr<BentNode> second;      ///< of a node with h or theta on a body that stiffens
+  std::unique_ptr<SlidingPoint> slides;  ///< of one that slides, with `guide`
+  int guide = -1;                        ///< the marker that it is at the foot of
   /// World axes (`world_gradients`), 3 x nm: velocity and angular velocity per modal rate.
   Mat3X Jr, Jw;
 
@@ -50,6 +53,12 @@ struct LocalMarker {
     const FlexibleBody& data = *model.bodies[m.body].data;
     assert(is_rotation(m.X_NM.R));
     X = X_theta = Jr = Jw = Mat3X::Zero(3, data.modes());
+    if (m.path) {  // no terms of second order: those are along the path
+      slides = std::make_unique<SlidingPoint>(*m.path, data);
+      guide = m.guide;
+      local = true;
+      return;
+    }
     if (m.node < 0) return;
     const ModalNode& node = data.nodes[m.node];
     assert(node.X.cols() == data.modes() && node.X_theta.cols() == data.modes());
@@ -73,6 +82,7 @@ struct LocalMarker {
   template <bool stiffens>
   void deform(const VecX& y) noexcept {
     assert(local && y.size() == X.cols());
+    if (slides) return;  // when its guide has been found
     if (stiffens && second) {
       p_B = second->place.bend(y.data(), X.data());
     } else {
@@ -94,6 +104,11 @@ struct LocalMarker {
       p_B += X_NM.p;
     }
   }
+  /// Of a marker that slides, its guide at `p`, body axes.
+  void slide(const Vec3& p, const VecX& y) noexcept {
+    assert(slides);
+    slides->find(p, y, p_B, X);
+  }
   /// p_B for other amplitudes, y + dy.
   template <bool stiffens>
   Vec3 position(const double* y, const double* dy) const noexcept {
@@ -112,6 +127,7 @@ struct LocalMarker {
   template <bool stiffens>
   void deform_rate(const VecX& yd) noexcept {
     assert(local && yd.size() == X.cols());
+    if (slides) return slides->find_rates(yd, pdot_B);
     pdot_B.noalias() = X * yd;
     if (stiffens && second) pddot_B = second->place.quadratic(yd.data());
     if (!rotates) return;

@@ -112,6 +112,12 @@ void TreeKinematics::positions_of(const VecX& q) noexcept {
       marker_position(m);
     }
   }
+  for (const int k : sliding_) {
+    TreeMarker& m = markers_[k];
+    const TreeBody& b = bodies_[m.body];
+    m.slide(b.R_WB.transpose() * (markers_[m.guide].s.r - b.p_OB), b.y);
+    marker_position(m);
+  }
   // The joint's bias needs velocities: `velocities` evaluates it from the H stored in b.motion.
 }
 

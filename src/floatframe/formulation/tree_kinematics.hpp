@@ -196,6 +196,7 @@ class TreeKinematics {
     std::vector<int> dynamic, all;
   };
   std::vector<UsedMarkers> used_markers_;
+  std::vector<int> sliding_;  ///< markers that slide
   bool stepping_ = false;
   bool stiffens_ = false;  ///< a marker has displacements of second order
   int nq_ = 0, nv_ = 0;

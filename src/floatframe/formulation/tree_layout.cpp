@@ -37,6 +37,9 @@ TreeKinematics::TreeKinematics(const Model& model)
   for (std::size_t i = 0; i < markers_.size(); ++i) {
     static_cast<LocalMarker&>(markers_[i]) = LocalMarker(model_, model_.markers[i]);
     stiffens_ = stiffens_ || markers_[i].second;
+    if (!markers_[i].slides) continue;
+    markers_[i].s.foot = &markers_[i].slides->foot;
+    sliding_.push_back(static_cast<int>(i));
   }
 }
 

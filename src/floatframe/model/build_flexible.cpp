@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
 
 #include "floatframe/body/body_shape.hpp"
 #include "floatframe/body/mirrored.hpp"
@@ -90,9 +91,9 @@ class Key {
     all(fractions, bands, alpha, beta, static_cast<int>(reference), interface_frequency);
   }
   void add(const ReductionOptions& options) {
-    const auto& [clamped, interfaces, normal_modes, max_frequency, analytic, basis, orthonormalise,
-                 mass_model, eigen_mass, section_inertia, damping] = options;
-    all(clamped, interfaces, normal_modes, max_frequency, analytic, basis, orthonormalise,
+    const auto& [clamped, interfaces, path, normal_modes, max_frequency, analytic, basis,
+                 orthonormalise, mass_model, eigen_mass, section_inertia, damping] = options;
+    all(clamped, interfaces, path, normal_modes, max_frequency, analytic, basis, orthonormalise,
         mass_model, eigen_mass, section_inertia, damping);
   }
   void add(const Material& m) {
@@ -185,7 +186,24 @@ BodyShape bar_shape(const FrameDescription& frame, const FeModel& model) {
   return out;
 }
 
+/// The options with the nodes of the bars of a path in the place of their names.
+ReductionOptions with_nodes_of_path(ReductionOptions options, const FrameDescription& frame,
+                                    const FeModel& model) {
+  std::map<int, unsigned> masks;
+  for (const NodeDofs& d : options.path)
+    for (const FeElement& e : model.elements)
+      if (frame.bars[static_cast<std::size_t>(e.section)].name == d.node)
+        for (int k = 0; k < 2; ++k) masks[e.nodes[k]] |= d.mask;
+  options.path.clear();
+  for (const auto& [node, mask] : masks) options.path.push_back({"", mask, node});
+  return options;
+}
+
 }  // namespace
+
+FeModel bar_model(const BodyDescription& body) {
+  return build_bar_frame(frame_of(std::get<FlexibleDescription>(body.kind), body.X_WT.inverse()));
+}
 
 std::shared_ptr<const FlexibleBody> FlexibleBuilder::build(const BodyDescription& body,
                                                            bool stiffens, ErrorList& errors) {
@@ -201,7 +219,8 @@ std::shared_ptr<const FlexibleBody> FlexibleBuilder::build(const BodyDescription
     try {
       const FeModel model = build_bar_frame(frame);
       FlexibleBody reduced =
-          reduce(model, options, stiffens ? SecondOrderOf::all_nodes : SecondOrderOf::named_nodes);
+          reduce(model, with_nodes_of_path(options, f, model),
+                 stiffens ? SecondOrderOf::all_nodes : SecondOrderOf::named_nodes);
       reduced.shape = std::make_shared<const BodyShape>(bar_shape(f, model));
       plain = std::make_shared<const FlexibleBody>(std::move(reduced));
     } catch (const InputError& error) {

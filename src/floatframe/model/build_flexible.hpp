@@ -13,6 +13,9 @@ namespace floatframe {
 /// In the local axes of a bar.
 BeamSection bar_section(const SectionDescription& section);
 
+/// The finite elements of a body of bars, as it was before it is mirrored. Throws InputError.
+FeModel bar_model(const BodyDescription& body);
+
 class FlexibleBuilder {
  public:
   /// Adds errors (with the entity's marks) and returns null if the body cannot be built.

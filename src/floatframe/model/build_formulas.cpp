@@ -7,6 +7,7 @@
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/formulas/function_words.hpp"
+#include "floatframe/model/curve_keys.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/joint_kind.hpp"
 #include "floatframe/model/model_builder.hpp"
@@ -174,6 +175,12 @@ class FormulaConnection {
       case Of::coupling:
         return of_list(ElementList::couplings, r) ||
                none("coupling", names_of(ElementList::couplings));
+      case Of::path: {
+        const int k = b_.element(ElementList::constraints, r.name);
+        if (k < 0) return none("constraint", names_of(ElementList::constraints));
+        return has_path(*b_.model.elements[k].keys) ||
+               wrong(ErrorCode::wrong_value, sentences::no_path(r.name));
+      }
       case Of::motion:
         return (b_.joint_names.find(r.name) && of_list(ElementList::motions, r)) ||
                none("motion", names_of(ElementList::motions));

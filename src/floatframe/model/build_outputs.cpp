@@ -83,6 +83,8 @@ bool ModelBuilder::subject(const OutputDescription& o, Output& out, const std::s
       return of_list(ElementList::rods);
     case OutputOf::coupling:
       return of_list(ElementList::couplings);
+    case OutputOf::path:
+      return of_list(ElementList::constraints);
     case OutputOf::controller:
       return of_list(ElementList::controllers) && value_of_element(o, out, what);
     case OutputOf::motion: {

@@ -20,7 +20,8 @@
   entry(cam_angle)                    \
   entry(cam_displacement)             \
   entry(on_curve)                     \
-  entry(curve_on_curve)
+  entry(curve_on_curve)               \
+  entry(drive_on_curve)
 // clang-format on
 
 namespace floatframe {

@@ -6,10 +6,7 @@
 
 namespace floatframe {
 
-namespace {
-
-/// Neighbours are apart, those of a closed curve in a ring.
-void validate_points_apart(const ElementCheck& check, const std::string& key, const MatX& points,
+void validate_curve_points(const ElementCheck& check, const std::string& key, const MatX& points,
                            bool closed) {
   const Eigen::Index n = points.rows(), least = closed ? 3 : 2;
   if (n < least)
@@ -22,8 +19,6 @@ void validate_points_apart(const ElementCheck& check, const std::string& key, co
           ErrorCode::geometry, key,
           fmt::format("found row {} at the point before it, expected points apart", i + 1));
 }
-
-}  // namespace
 
 void validate_curve(const ElementCheck& check, const std::string& ending) {
   const std::string rows_key = "points" + ending, x = "x" + ending, y = "y" + ending,
@@ -38,7 +33,7 @@ void validate_curve(const ElementCheck& check, const std::string& ending) {
                                          rows_key, x, y, z, range_key));
   const MatX rows = check.matrix(rows_key), range = check.matrix(range_key);
   if (check.good(rows_key) && rows.rows() > 0)
-    validate_points_apart(check, rows_key, rows, check.flag("closed" + ending));
+    validate_curve_points(check, rows_key, rows, check.flag("closed" + ending));
   if (check.wrong.contains(range_key)) return;
   if (formulas && range.size() == 0)
     return check.error(ErrorCode::missing, "",
@@ -73,11 +68,21 @@ std::optional<SpaceCurve> build_curve(ElementBuild& build, const PointOnCurve& k
   return curve;
 }
 
+bool has_path(const ElementKeys& keys) {
+  const PointOnCurve* curve = std::get_if<PointOnCurve>(&keys);
+  return std::holds_alternative<SlideAlong>(keys) || (curve && curve->points.rows() > 0);
+}
+
+void mirror_curve_points(MatX& points, const Placement& x) {
+  for (int k = 0; k < 3; ++k)
+    if (points.rows() > 0 && x.P(k, k) < 0.0) points.col(k) *= -1.0;
+}
+
 void mirror_curve(MatX& points, const std::array<std::optional<SharedFormula>*, 3>& formulas,
                   const Placement& x) {
+  mirror_curve_points(points, x);
   for (int k = 0; k < 3; ++k) {
     if (!(x.P(k, k) < 0.0)) continue;
-    if (points.rows() > 0) points.col(k) *= -1.0;
     std::optional<SharedFormula>& f = *formulas.at(k);
     if (!f || !*f) continue;
     auto turned = std::make_shared<Formula>(**f);

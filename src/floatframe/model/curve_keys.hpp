@@ -45,6 +45,13 @@ constexpr ElementKey curve_closed_key(const char* name, KeyMember member) {
 void validate_curve(const ElementCheck& check, const std::string& ending);
 /// None after an error.
 std::optional<SpaceCurve> build_curve(ElementBuild& build, const PointOnCurve& keys);
+/// Points of this key: neighbours are apart, those of a closed curve in a ring.
+void validate_curve_points(const ElementCheck& check, const std::string& key, const MatX& points,
+                           bool closed);
+/// A constraint whose travel along its points is a length.
+bool has_path(const ElementKeys& keys);
+/// In the mirrored subsystem.
+void mirror_curve_points(MatX& points, const Placement& x);
 void mirror_curve(MatX& points, const std::array<std::optional<SharedFormula>*, 3>& formulas,
                   const Placement& x);
 

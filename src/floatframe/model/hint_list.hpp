@@ -27,6 +27,8 @@ void hint_at_units(const ModelDescription& description, HintList& out);
 /// Formulas of what is known only at the end of a step, or with corners and jumps. `located`:
 /// steps end where that is possible.
 void hint_at_formulas(const Model& model, bool located, HintList& out);
+/// Paths along bodies of bars that sag less below a load than their bars do.
+void hint_at_paths(const ModelDescription& description, const Model& model, HintList& out);
 /// The bending stiffnesses of the bars of all flexible bodies.
 std::vector<BarBending> bar_bending(const ModelDescription& description, const Model& model);
 

@@ -6,12 +6,17 @@
 
 namespace floatframe {
 
+struct CurveFoot;
+
 struct MarkerState {
   Vec3 r;                   ///< position relative to the evaluation origin [m]
   Mat3 R;                   ///< orientation
   Vec3 v, w;                ///< velocity of the point [m/s], angular velocity [rad/s]
   Vec3 a_bias, alpha_bias;  ///< acceleration and angular acceleration when all coordinate
                             ///< accelerations are zero
+  /// Of a marker that slides along nodes of its body (model/slide_path.hpp): where its path is, body
+  /// axes; else null.
+  const CurveFoot* foot = nullptr;
 };
 
 /// Debug builds: NaN until they are computed.

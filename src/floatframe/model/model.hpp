@@ -19,12 +19,17 @@
 
 namespace floatframe {
 
+class SlidePath;
+
 struct Marker {
   int body = -1;  ///< -1: ground
   int node = -1;  ///< node of a flexible body; -1: fixed in the body frame (ground: world frame)
   Pose X_NM;      ///< in the node frame; with node = -1 in the body frame
   bool rotates = false;  ///< the rotation of the node enters (orientation or offset is used and
                          ///< X_theta is not zero)
+  /// It slides along nodes of its flexible body, at the foot of the marker `guide`; else null.
+  std::shared_ptr<const SlidePath> path = nullptr;
+  int guide = -1;
 };
 
 struct Body {

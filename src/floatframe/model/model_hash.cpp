@@ -4,6 +4,7 @@
 
 #include "floatframe/core/content_hash.hpp"
 #include "floatframe/model/element_keys.hpp"
+#include "floatframe/model/slide_path.hpp"
 
 namespace floatframe {
 namespace {
@@ -179,6 +180,9 @@ class ModelHash {
     for (const Gauge& g : gauges) add(g);
     for (const Marker& m : markers)
       if (m.body >= 0 && m.node >= 0) add(bodies[m.body].data->nodes[m.node]);
+    for (const Marker& m : markers)
+      if (m.path)
+        for (const int node : m.path->nodes()) add(bodies[m.body].data->nodes[node]);
   }
 
  private:

@@ -46,6 +46,7 @@ enum class OutputOf {
   rod,         ///< `rod`
   motion,      ///< a joint with a prescribed motion: `element`
   coupling,    ///< `element`
+  path,        ///< `element`, a constraint that keeps a point on a path or a curve through points
   controller,  ///< `element`
   state,       ///< an element, with the number of a state: `element`, `component`
   formula,     ///< `formula`

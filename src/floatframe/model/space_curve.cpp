@@ -101,34 +101,34 @@ SpaceCurve::Foot SpaceCurve::foot(const Vec3& p) const noexcept {
       square = s;
       nearest = k;
     }
-  Foot f;
-  f.u = u_[nearest];
-  const double widest = u_[1] - u_[0];
-  constexpr int most_steps = 30;
-  Value v = at(f.u);
-  for (int step = 0; step < most_steps; ++step) {
-    f.e = p - v.c;
-    const double slope = std::max(v.dc.squaredNorm() - f.e.dot(v.ddc), 0.1 * v.dc.squaredNorm());
-    const double du = std::clamp(f.e.dot(v.dc) / slope, -widest, widest);
-    // A line beyond the ends: steps are as long as they need to be.
-    const bool beyond = !closed_ && (f.u <= first_ || f.u >= last_);
-    f.u += beyond && v.ddc.isZero(0.0) ? f.e.dot(v.dc) / slope : du;
-    v = at(f.u);
-    if (!(std::abs(du) > 1e-15 * (std::abs(f.u) + widest))) break;
-  }
+  const double u = foot_parameter(
+      u_[nearest], u_[1] - u_[0], p, [&](double x) { return at(x); },
+      [&](double x) { return !closed_ && (x <= first_ || x >= last_); });
+  return curve_foot(u, p, at(u), normal_);
+}
+
+CurveFoot curve_foot(double u, const Vec3& p, const CurveValue& v, const Vec3& across) noexcept {
+  CurveFoot f;
+  f.u = u;
   f.e = p - v.c;
-  const double speed = v.dc.norm();
-  f.t = v.dc / speed;
-  f.u_p = v.dc / (v.dc.squaredNorm() - f.e.dot(v.ddc));
-  const Vec3 t_u = (v.ddc - f.t * f.t.dot(v.ddc)) / speed;
-  const Vec3 w = normal_ - normal_.dot(f.t) * f.t;
-  const Vec3 w_u = -normal_.dot(t_u) * f.t - normal_.dot(f.t) * t_u;
-  const double size = w.norm();
-  f.n[1] = w / size;
-  f.n_u[1] = (w_u - f.n[1] * f.n[1].dot(w_u)) / size;
+  f.dc = v.dc;
+  f.ddc = v.ddc;
+  f.slope = v.dc.squaredNorm() - f.e.dot(v.ddc);
+  f.t = v.dc / v.dc.norm();
+  f.u_p = v.dc / f.slope;
+  f.n[1] = (across - across.dot(f.t) * f.t).normalized();
   f.n[0] = f.n[1].cross(f.t);
-  f.n_u[0] = f.n_u[1].cross(f.t) + f.n[1].cross(t_u);
+  turn_of_normals(f, across, f.ddc, f.n_u);
   return f;
+}
+
+void turn_of_normals(const CurveFoot& f, const Vec3& across, const Vec3& dc_rate,
+                     Vec3 (&n_rate)[2]) noexcept {
+  const Vec3 t_rate = (dc_rate - f.t * f.t.dot(dc_rate)) / f.dc.norm();
+  const double size = (across - across.dot(f.t) * f.t).norm();
+  const Vec3 w_rate = -across.dot(t_rate) * f.t - across.dot(f.t) * t_rate;
+  n_rate[1] = (w_rate - f.n[1] * f.n[1].dot(w_rate)) / size;
+  n_rate[0] = n_rate[1].cross(f.t) + f.n[1].cross(t_rate);
 }
 
 }  // namespace floatframe

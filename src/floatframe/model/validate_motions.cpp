@@ -22,7 +22,8 @@ void motions(const ModelDescription& d, ErrorList& errors) {
       if (m.coordinate >= 0 && m.coordinate < joint_velocities(j.type))
         look(entity, "motion." + joint_coordinate_key(j.type, m.coordinate), m.motion);
   }
-  for (const ElementList list : {ElementList::rods, ElementList::couplings})
+  for (const ElementList list :
+       {ElementList::rods, ElementList::constraints, ElementList::couplings})
     for (const ElementDescription& e : d.elements(list))
       for (const ElementKey& key : element_keys(e.type()))
         if (const auto value = key.kind == KeyKind::motion ? key_value(e, key) : std::nullopt)

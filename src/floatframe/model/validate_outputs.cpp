@@ -5,6 +5,7 @@
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/description/rules.hpp"
 #include "floatframe/description/sentences.hpp"
+#include "floatframe/model/curve_keys.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/output_kind.hpp"
 #include "floatframe/model/validate_model.hpp"
@@ -106,6 +107,14 @@ void motion_output(const OutputDescription& o, const ModelDescription& d, const 
     entity.error(ErrorCode::wrong_value, word, sentences::joint_without_motion());
 }
 
+void path_output(const OutputDescription& o, const ModelDescription& d, const Names& names,
+                 const Entity& entity) {
+  const char* const word = output_type_name(o.type);
+  if (!entity.reference(word, "constraint", o.entity, names.constraints)) return;
+  if (!has_path(d.constraints[*names.constraints.find(o.entity)].kind))
+    entity.error(ErrorCode::wrong_value, word, sentences::no_path(o.entity));
+}
+
 void output(const OutputDescription& o, const ModelDescription& d, const Names& names,
             const Entity& entity) {
   const std::string what = output_type_name(o.type);
@@ -156,6 +165,9 @@ void output(const OutputDescription& o, const ModelDescription& d, const Names& 
       break;
     case OutputOf::coupling:
       entity.reference(what, "coupling", o.entity, names.couplings);
+      break;
+    case OutputOf::path:
+      path_output(o, d, names, entity);
       break;
     case OutputOf::controller:
       entity.reference(what, "controller", o.entity, names.controllers);

@@ -209,7 +209,8 @@ void read_body(const ModelInstance& self, const std::string& name, YamlSection& 
     body.geometric_stiffening = s.boolean("geometric_stiffening", false);
   s.finish({"rigid.mass", "rigid.centre_of_mass", "rigid.inertia", "flexible.material",
             "flexible.bars", "flexible.masses", "flexible.clamped", "flexible.static_modes",
-            "flexible.normal_modes", "flexible.mass_model", "flexible.damping"});
+            "flexible.path_shapes", "flexible.normal_modes", "flexible.mass_model",
+            "flexible.damping"});
   if (!rigid_value && !part.value) {
     if (part.valid) s.error(ErrorCode::missing, "missing key 'rigid' or 'flexible'");
     known.valid = false;

@@ -104,6 +104,24 @@ class FlexibleReader {
     return out;
   }
 
+  /// Bars with the directions of the forces on a path along them.
+  void path_shapes() {
+    const auto value = section_.get("path_shapes");
+    if (!value) return;
+    for (const YamlValue& item : value->list("a list of bars {bar, dofs}")) {
+      auto s = item.section("a bar {bar, dofs}");
+      if (!s) continue;
+      NodeDofs d;
+      d.origin = s->origin();
+      const auto bar = s->require("bar");
+      if (const auto name = bar ? bar->text("the name of a bar") : std::nullopt) d.node = *name;
+      if (const auto dofs = s->require("dofs"))
+        for (const unsigned k : read_dofs(*dofs)) d.mask |= 1u << k;
+      s->finish();
+      if (!d.node.empty() && d.mask != 0) f().path.push_back(d);
+    }
+  }
+
   void modes() {
     section_.word("mass_model", rules::mass_models, f().mass_model);
     f().orthonormalise = section_.boolean("orthonormal", false);
@@ -116,6 +134,7 @@ class FlexibleReader {
     const std::size_t errors_before = self_.context.errors->size();
     f().clamped = dofs("clamped");
     f().interfaces = dofs("static_modes");
+    path_shapes();
     const auto normal = section_.get("normal_modes");
     const auto analytic = section_.get("analytic");
     const auto basis = section_.get("basis");
@@ -130,7 +149,7 @@ class FlexibleReader {
       analytic->complain(ErrorCode::wrong_value,
                          sentences::analytic_shapes(f().bars.size(), f().masses.size()));
     }
-    for (const char* key : {"clamped", "static_modes", "normal_modes"}) {
+    for (const char* key : {"clamped", "static_modes", "path_shapes", "normal_modes"}) {
       if (!section_.has(key) || (!analytic && !basis)) continue;
       if (analytic || std::string(key) != "clamped")
         section_.get(key)->error(ErrorCode::exclusive,
@@ -157,8 +176,9 @@ class FlexibleReader {
                          sentences::more_modes_than_dofs(
                              *n, out_.nodes.size(), f().mass_model == MassModel::isoparametric));
     }
-    out_.modes =
-        f().max_frequency > 0.0 ? -1 : static_cast<int>(f().interfaces.size()) + f().normal_modes;
+    out_.modes = f().max_frequency > 0.0 || !f().path.empty()
+                     ? -1
+                     : static_cast<int>(f().interfaces.size()) + f().normal_modes;
     if (out_.modes == 0 && self_.context.errors->size() == errors_before)
       section_.error(ErrorCode::missing, sentences::no_modes());
     if (!section_.has("clamped"))

@@ -83,6 +83,8 @@ class OutputReader {
         return put(self_.reference(EntityKind::rod, what), o.entity);
       case OutputOf::coupling:
         return put(self_.reference(EntityKind::coupling, what), o.entity);
+      case OutputOf::path:
+        return put(self_.reference(EntityKind::constraint, what), o.entity);
       case OutputOf::controller:
         return controller(s, what, o);
       case OutputOf::motion:

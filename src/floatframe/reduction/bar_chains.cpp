@@ -186,6 +186,12 @@ MatX BarChains::guyan_stiffness(const MatX&) const {
   return coarse_->guyan_stiffness(coarse_->constraint_modes());
 }
 
+MatX BarChains::inner_response(const MatX& forces) const {
+  MatX x = MatX::Zero(size_, forces.cols());
+  x(inner_, Eigen::all) = solve(forces(inner_, Eigen::all));
+  return x;
+}
+
 Eigenmodes BarChains::lowest(int count) const {
   return lowest_modes([this](const MatX& f) { return solve(f); }, M_inner_, count);
 }

@@ -32,6 +32,7 @@ class BarChains {
   int inner() const noexcept { return static_cast<int>(inner_.size()); }
   MatX constraint_modes() const;
   MatX guyan_stiffness(const MatX&) const;
+  MatX inner_response(const MatX& forces) const;
   Eigenmodes normal_modes(int count) const;
   int count_below(double frequency) const;
 

@@ -104,7 +104,7 @@ SparseMatrix eigen_mass(const FeModel& model, const ReductionOptions& options) {
 /// Static modes, then normal modes.
 template <class Fixed>
 ModeSet mode_set(const Fixed& fixed, const ReductionOptions& options,
-                 std::vector<std::string> names) {
+                 const std::vector<int>& loaded, std::vector<std::string> names) {
   std::optional<int> number;
   if (options.normal_modes != 0 || !(options.max_frequency > 0.0)) number = options.normal_modes;
   const int count = normal_mode_count(fixed, number, options.max_frequency);
@@ -116,22 +116,24 @@ ModeSet mode_set(const Fixed& fixed, const ReductionOptions& options,
   if (!number && whole > found) normal = fixed.normal_modes(whole);
   ModeSet set = craig_bampton_set(fixed, normal, std::move(names));
   if (number) set.equal_left_out = whole - found;
+  append_residual_shapes(fixed, normal, loaded, set);
   return set;
 }
 
 ModeSet held_modes(const FeModel& model, const ReductionOptions& options, const SparseMatrix& K,
                    const SparseMatrix& M, const std::vector<int>& interface_dofs,
-                   const std::vector<int>& zero, std::vector<std::string> names) {
+                   const std::vector<int>& zero, const std::vector<int>& loaded,
+                   std::vector<std::string> names) {
   const int d = model.dofs_per_node();
   const auto label = [&](int dof) {
     return model.node_label(dof / d) + " " + node_dof_names[dof % d];
   };
   try {
     if (const auto chains = BarChains::make(model, K, M, interface_dofs, zero, label))
-      return mode_set(*chains, options, std::move(names));
+      return mode_set(*chains, options, loaded, std::move(names));
     std::optional<FixedInterface> fixed;
     with_digits_hint(model, [&] { fixed.emplace(K, M, interface_dofs, zero, label); });
-    return mode_set(*fixed, options, std::move(names));
+    return mode_set(*fixed, options, loaded, std::move(names));
   } catch (const EigenIterationError& error) {
     if (options.section_inertia || options.mass_model == MassModel::isoparametric) throw;
     throw InputError(
@@ -211,8 +213,14 @@ ModeSet craig_bampton_modes(const FeModel& model, const ReductionOptions& option
     const Role role = roles[i];
     if (role == Role::clamped || role == Role::inactive) zero.push_back(i);
   }
+  // Forces where nothing moves need no shape, those on interfaces have theirs.
+  std::vector<int> loaded;
+  for (const NodeDofs& c : options.path)
+    for (int axis = 0; axis < d; ++axis)
+      if (const int i = c.index * d + axis; ((c.mask >> axis) & 1u) && roles[i] == Role::inner)
+        loaded.push_back(i);
   ModeSet set = held_modes(model, options, K, eigen_mass(model, options), interface_dofs, zero,
-                           std::move(names));
+                           loaded, std::move(names));
   if (d == 6)
     check_digits(model, rows_of_nodes(set.X, 0), rows_of_nodes(set.X, 3), set.K.diagonal(),
                  set.names);

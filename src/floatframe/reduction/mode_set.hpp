@@ -7,6 +7,7 @@
 
 #include "floatframe/body/cut_pair.hpp"
 #include "floatframe/body/flexible_body.hpp"
+#include "floatframe/math/dense.hpp"
 #include "floatframe/reduction/eigenmodes.hpp"
 
 namespace floatframe {
@@ -54,6 +55,42 @@ ModeSet craig_bampton_set(const Fixed& fixed, const Eigenmodes& normal,
   for (Eigen::Index a = 0; a < nn; ++a) names.push_back("normal " + std::to_string(a + 1));
   set.names = std::move(names);
   return set;
+}
+
+/// Appends the residual shapes of unit forces on these rows, which the modes of the set do not have:
+///   R = K_ii^-1 F - Phi w^-2 Phi^T F,  G = F^T R = V diag(g) V^T,  shapes R V
+/// orthogonal to all others in the stiffness, and among themselves; each has the largest component
+/// 1. Those that add less than 1e-9 of the deflection are left out. After them a force on any of
+/// these rows deflects the structure as without a reduction.
+template <class Fixed>
+void append_residual_shapes(const Fixed& fixed, const Eigenmodes& normal,
+                            const std::vector<int>& loaded, ModeSet& set) {
+  const auto n = static_cast<Eigen::Index>(loaded.size());
+  if (n == 0) return;
+  MatX F = MatX::Zero(set.X.rows(), n);
+  for (Eigen::Index k = 0; k < n; ++k) F(loaded[k], k) = 1.0;
+  MatX R = fixed.inner_response(F);
+  const double whole = F.cwiseProduct(R).colwise().sum().maxCoeff();
+  R -= normal.shapes * normal.omega.cwiseAbs2().cwiseInverse().asDiagonal() *
+       (normal.shapes.transpose() * F);
+  const MatX G = F.transpose() * R;
+  const SymmetricEigen eig = symmetric_eigen(MatX(0.5 * (G + G.transpose())));
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index k = n; k-- > 0;)
+    if (eig.values[k] > 1e-9 * whole) kept.push_back(k);
+  const Eigen::Index before = set.X.cols(), more = std::ssize(kept);
+  set.X.conservativeResize(Eigen::NoChange, before + more);
+  MatX K = MatX::Zero(before + more, before + more);
+  K.topLeftCorner(before, before) = set.K;
+  for (Eigen::Index k = 0; k < more; ++k) {
+    const VecX shape = R * eig.vectors.col(kept[k]);
+    Eigen::Index largest = 0;
+    shape.cwiseAbs().maxCoeff(&largest);
+    set.X.col(before + k) = shape / shape[largest];
+    K(before + k, before + k) = eig.values[kept[k]] / (shape[largest] * shape[largest]);
+    set.names.push_back("residual " + std::to_string(k + 1));
+  }
+  set.K = std::move(K);
 }
 
 /// The body from modes: everything except its nodes, its damping and the data of the projection

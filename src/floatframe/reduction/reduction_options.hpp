@@ -31,7 +31,10 @@ struct AnalyticShapes {
 struct ReductionOptions {
   std::vector<NodeDofs> clamped;     ///< the body reference: dofs that all modes leave at zero
   std::vector<NodeDofs> interfaces;  ///< one static mode per dof, in this order, low bits first
-  int normal_modes = 0;              ///< fixed-interface normal modes by number
+  /// Residual shapes of unit forces on all nodes of bars: `node` is the name of a bar, or in `reduce`
+  /// of an FeModel `index` that of a node.
+  std::vector<NodeDofs> path = {};
+  int normal_modes = 0;  ///< fixed-interface normal modes by number
   /// If positive: all below this [Hz]; with normal_modes at most so many.
   double max_frequency = 0.0;
   std::optional<AnalyticShapes> analytic;  ///< replaces interfaces and normal_modes

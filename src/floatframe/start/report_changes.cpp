@@ -112,7 +112,8 @@ void report_rigid_tangents(const Model& model, StartReport& report) {
       if (!slides_along(body, marker, slides)) continue;
       report.notes.push_back(fmt::format(
           "joint '{}' slides along the straight tangent of body '{}' at one of its nodes, not "
-          "along the bent body: away from there it moves as that node does",
+          "along the bent body: away from there it moves as that node does; a constraint "
+          "'slide_along' follows the bent body",
           j.name, body.name));
       break;
     }

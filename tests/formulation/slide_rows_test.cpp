@@ -1,0 +1,104 @@
+// The rows of a point that slides along nodes of a flexible body, where it is on its path: gradients
+// and accelerations against differences, in both formulations.
+#include <gtest/gtest.h>
+
+#include "support/random_model.hpp"
+
+namespace floatframe::test {
+namespace {
+
+constexpr double time_of_rows = 0.3;
+
+/// A flexible body and a free one, whose point slides along nodes of the first with a motion.
+ModelDescription sliding_pair() {
+  RandomSystem s(29);
+  s.add_body("girder", 4);
+  s.add_body("trolley", 3);
+  s.add_joint("root", JointType::spherical, ground_name, 0, "girder", 0);
+  SlideAlong keys;
+  keys.a = s.at("girder", 1);
+  keys.b = s.at("trolley", 2);
+  const BodyDescription& girder = s.d.bodies[0];
+  const std::vector<ModalNode>& nodes = std::get<FlexibleBody>(girder.kind).nodes;
+  keys.points.resize(4, 3);
+  for (int k = 0; k < 4; ++k)
+    keys.points.row(k) = (girder.X_WB.R * (nodes[k + 1].p - nodes[1].p)).transpose();
+  keys.motion = TimeFunction{PiecewisePolynomial::polynomial({0.4, 0.5, -0.2}), {}};
+  s.d.constraints = {{"path", keys, {}}};
+  return s.d;
+}
+
+class SlideRows : public ::testing::Test {
+ protected:
+  static constexpr int rows = 3;
+  Model model_ = build_model(sliding_pair());
+  RandomPair pair_{model_, 5};
+
+  /// On the path at time_of_rows, and moving along it as the motion says.
+  template <class F>
+  void put_on_path(F& f, VecX& q, VecX& v) {
+    for (int round = 0; round < 30; ++round) {
+      evaluate_at(f, time_of_rows, q, v);
+      const VecX phi = f.constraint_values();
+      if (largest(phi) < 1e-13) break;
+      const VecX dx = -f.constraint_jacobian().completeOrthogonalDecomposition().solve(phi);
+      const VecX before = q;
+      f.retract(before, dx, q);
+    }
+    evaluate_at(f, time_of_rows, q, v);
+    EXPECT_LT(largest(f.constraint_values()), 1e-12);
+    VecX rates(f.constraints());
+    f.constraint_rates(rates);
+    v -= f.constraint_jacobian().completeOrthogonalDecomposition().solve(rates);
+  }
+};
+
+TEST_F(SlideRows, AreThoseOfDifferencesOnThePath) {
+  auto& [relative, absolute, random, q, v, qa, va] = pair_;
+  put_on_path(relative, q, v);
+  absolute.start_from(relative, q, v, qa, va);
+  const VecX a = random.vector(relative.velocities(), 3.0);
+  const VecX aa = absolute_accelerations(relative, absolute, q, v, a);
+  const auto check = [&](auto& f, const VecX& place, const VecX& rate, const VecX& acceleration) {
+    evaluate_at(f, time_of_rows, place, rate);
+    EXPECT_LT(largest(f.constraint_values().tail(rows)), 1e-10);
+    constexpr double h = 1e-5;
+    VecX plus(f.constraints()), minus(f.constraints()), exact(f.constraints()), moved = place;
+    const auto go = [&](double dt, bool values, VecX& out) {
+      f.retract(place, dt * rate + 0.5 * dt * dt * acceleration, moved);
+      evaluate_at(f, time_of_rows + dt, moved, rate + dt * acceleration);
+      values ? void(out = f.constraint_values()) : f.constraint_rates(out);
+    };
+    for (const bool values : {true, false}) {
+      go(h, values, plus);
+      go(-h, values, minus);
+      evaluate_at(f, time_of_rows, place, rate);
+      values ? f.constraint_rates(exact) : f.constraint_accelerations(acceleration, exact);
+      for (Eigen::Index i = f.constraints() - rows; i < f.constraints(); ++i)
+        EXPECT_NEAR(exact[i], (plus[i] - minus[i]) / (2.0 * h), 2e-6 * (1.0 + std::abs(exact[i])))
+            << i << values;
+    }
+    // Along each coordinate: values against the gradient, and forces against it.
+    const MatX J = f.constraint_jacobian();
+    const VecX w = Random(9).vector(f.constraints());
+    VecX push(f.velocities());
+    f.constraint_forces(w, push);
+    EXPECT_LT(largest(push - J.transpose() * w), 1e-11);
+    for (int j = 0; j < f.velocities(); ++j) {
+      const VecX unit = VecX::Unit(f.velocities(), j);
+      f.retract(place, h * unit, moved);
+      evaluate_at(f, time_of_rows, moved, rate);
+      plus = f.constraint_values();
+      f.retract(place, -h * unit, moved);
+      evaluate_at(f, time_of_rows, moved, rate);
+      const VecX slope = (plus - f.constraint_values()) / (2.0 * h);
+      for (Eigen::Index i = f.constraints() - rows; i < f.constraints(); ++i)
+        EXPECT_NEAR(J(i, j), slope[i], 1e-7 * (1.0 + std::abs(slope[i]))) << i << ' ' << j;
+    }
+  };
+  check(relative, q, v, a);
+  check(absolute, qa, va, aa);
+}
+
+}  // namespace
+}  // namespace floatframe::test
