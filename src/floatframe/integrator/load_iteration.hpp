@@ -18,11 +18,12 @@
 #include <cassert>
 #include <cmath>
 
-#include "floatframe/formulation/equations_of_motion.hpp"
+#include "floatframe/math/types.hpp"
 
 namespace floatframe {
 
-template <EquationsOfMotion F>
+/// F: a formulation.
+template <class F>
 class LoadIteration {
  public:
   /// Newton iterations of a step with loads.
@@ -82,6 +83,11 @@ class LoadIteration {
     }
     ++passes_;
     f.set_loads(loads_);
+  }
+  /// The last one of a load, relative to the largest load.
+  double change() const noexcept {
+    const double size = loads_.cwiseAbs().maxCoeff();
+    return size > 0.0 ? change_.cwiseAbs().maxCoeff() / size : 0.0;
   }
   /// The largest |c| of the step.
   double contraction() const noexcept { return contraction_; }
