@@ -1,5 +1,5 @@
-// Friction from the reaction of its joint, of the same iterate: an incline, guides, shoulders, screw
-// jacks, a four-bar against another solution, its order, what is refused.
+// Friction from the reaction of its joint, of the same iterate: an incline, guides, shoulders,
+// screw jacks, a four-bar against another solution, its order, what is refused.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -163,7 +163,8 @@ simulation: {step: )" +
 /// equations of the three bars with the forces of the pins as unknowns, solved at each instant by a
 /// fixed point for their magnitudes (1e-13), with the angle of the crank and the deflections of the
 /// four bristles as the only variables, by DOP853 with a tolerance of 1e-12 (scipy). All pins slide
-/// at first; the rocker turns back near 0.29 s, the coupler on it near 0.69 s, the crank near 0.72 s.
+/// at first; the rocker turns back near 0.29 s, the coupler on it near 0.69 s, the crank near
+/// 0.72 s.
 struct FourBarInstant {
   double t, angle, torque;
 };

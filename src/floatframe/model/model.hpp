@@ -154,8 +154,7 @@ struct SampleClock {
   bool ticks() const noexcept { return period > 0.0; }
 };
 
-/// What an element reads of the reaction of a joint (joint_load.hpp). The load is its last kept
-/// number [N] or [N m].
+/// What an element reads of the reaction of a joint. The load is its last kept number [N] or [N m].
 struct LoadPort {
   int joint = -1;       ///< -1: none
   double across = 1.0;  ///< factor of the forces across the axis [1] or [m]
