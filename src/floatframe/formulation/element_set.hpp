@@ -179,9 +179,9 @@ class ElementSet {
     return z_.of(k)[load_place(k)];
   }
   /// Its efforts with another load, at the ports of the last evaluation.
-  void set_load(std::size_t k, double load, const Ports& in) noexcept {
+  void set_load(std::size_t k, double value, const Ports& in) noexcept {
     assert(model_.elements[k].load.joint >= 0);
-    z_.of(k)[load_place(k)] = load;
+    z_.of(k)[load_place(k)] = value;
     if (!held_) evaluate_element(in, states_[k]);
   }
 

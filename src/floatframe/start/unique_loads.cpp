@@ -47,7 +47,7 @@ void require_unique_loads(RelativeFormulation& tree, const VecX& q, const StartR
     const Vec3 e = tree.marker(joint.frame_F).R.col(2);
     const std::string open = open_part(model, analysis, balanced, element.load, e);
     if (open.empty()) continue;
-    throw RunError(ErrorCode::dependent,
+    throw RunError(ErrorCode::unsupported,
                    element_name(element) + " needs the reaction of joint '" + joint.name +
                        "', whose " + open +
                        " is not unique, since constraints are redundant; let another joint of the "

@@ -180,14 +180,14 @@ void validate_reaction(const ElementCheck& check) {
     check.error(ErrorCode::unsupported, "reaction", sentences::reaction_of(joint_type_name(*type)));
     return;
   }
-  const bool turns = joint_unit(*type, k) == JointUnit::rad;
-  if (!turns) {
+  const auto said = [&](const char* key) { return check.has(key) || check.wrong.contains(key); };
+  if (joint_unit(*type, k) != JointUnit::rad) {
     for (const char* key : {"bearing_radius", "axial_radius"})
       if (check.good(key)) check.error(ErrorCode::wrong_value, key, sentences::is_for("angles"));
-  } else if (!check.has("bearing_radius") && !check.has("axial_radius")) {
+  } else if (!said("bearing_radius") && !said("axial_radius")) {
     check.error(ErrorCode::incomplete, "reaction",
                 "of an angle needs a lever arm, expected 'bearing_radius' or 'axial_radius'");
-  } else if (check.good("bearing_length") && !check.has("bearing_radius")) {
+  } else if (check.good("bearing_length") && !said("bearing_radius")) {
     check.error(ErrorCode::incomplete, "bearing_length",
                 sentences::is_for("bearings with a 'bearing_radius'"));
   }
