@@ -9,6 +9,11 @@ namespace {
 JointStop& stop(ModelDescription& d) { return std::get<JointStop>(d.forces[0].kind); }
 BristleFriction& rub(ModelDescription& d) { return std::get<BristleFriction>(d.forces[1].kind); }
 
+BristleFriction& by_reaction(ModelDescription& d) {
+  rub(d).reaction = true;
+  return rub(d);
+}
+
 ModelDescription with_stop() {
   ModelDescription d = valid_description();
   d.bodies.push_back(make_body("nut", RigidDescription{1.0, Vec3::Zero(), Mat3::Identity()}));
@@ -52,7 +57,31 @@ TEST(ValidateJointElements, NamesWhatIsWrong) {
       {[](D& d) { rub(d).coordinate = 1; }, "forces.rub.coordinate: out_of_range"},
       {[](D& d) { rub(d).kinetic = 2.0; }, "forces.rub.kinetic: out_of_range"},
       {[](D& d) { rub(d).preload = -1.0; }, "forces.rub.preload: out_of_range"},
-      {[](D& d) { rub(d).radius = 0.0; }, "forces.rub.radius: out_of_range"}};
+      {[](D& d) { rub(d).radius = 0.0; }, "forces.rub.radius: out_of_range"},
+      {[](D& d) { rub(d).reaction = true; }, "no error"},
+      {[](D& d) { rub(d).bearing_length = 0.1; }, "forces.rub.bearing_length: incomplete"},
+      {[](D& d) { rub(d).axial_radius = 0.1; }, "forces.rub.axial_radius: incomplete"},
+      {[](D& d) { by_reaction(d).bearing_length = 0.0; },
+       "forces.rub.bearing_length: out_of_range"},
+      {[](D& d) { by_reaction(d).bearing_radius = 0.1; }, "forces.rub.bearing_radius: wrong_value"},
+      {[](D& d) { by_reaction(d).axial_radius = 0.1; }, "forces.rub.axial_radius: wrong_value"},
+      {[](D& d) {
+         by_reaction(d).joint = "pin";
+         rub(d).coordinate = 0;
+       },
+       "forces.rub.reaction: unsupported"},
+      {[](D& d) {
+         by_reaction(d).joint = "nut";
+         rub(d).coordinate = 1;
+       },
+       "forces.rub.reaction: incomplete"},
+      {[](D& d) {
+         by_reaction(d).joint = "nut";
+         rub(d).coordinate = 1;
+         rub(d).axial_radius = 0.1;
+         rub(d).bearing_length = 0.1;
+       },
+       "forces.rub.bearing_length: incomplete"}};
   for (const DescriptionCase& c : cases) {
     ModelDescription d = with_stop();
     c.change(d);

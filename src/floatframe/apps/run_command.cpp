@@ -68,21 +68,27 @@ std::string edges_text(const RunSummary& s) {
   return text;
 }
 
+std::string loads_text(const RunSummary& s) {
+  if (!(s.max_load_contraction > 0.0)) return "";
+  return fmt::format("  normal forces of reactions contract by {:.2g} in an iteration\n",
+                     s.max_load_contraction);
+}
+
 std::string summary_text(const RunSummary& s) {
   return fmt::format(
       "{}: {:g} s simulated in {:.3g} s of processor time ({:.3g} times real time at steps of {:g} "
       "ms){}\n"
       "{}  {} coordinates, inertia terms by {}, step {:g} s\n"
       "  {}, {} by halving, {}, {}\n"
-      "{}  largest constraint violation {:.2g} m, {:.2g} m/s\n{}",
+      "{}{}  largest constraint violation {:.2g} m, {:.2g} m/s\n{}",
       s.model, s.duration, s.cpu, s.real_time_factor, 1e3 * s.step,
       s.status == "completed" || s.strict ? ""
       : s.status == "interrupted"         ? ", then it was interrupted"
                                           : ", then it failed",
       s.until.empty() ? "" : "  " + until_text(s) + "\n", s.coordinates, s.inertia, s.step,
       plural(s.steps, "step"), s.substeps, plural(s.iterations, "Newton iteration"),
-      plural(s.factorizations, "factorisation"), edges_text(s), s.max_position_violation,
-      s.max_velocity_violation, notes_text(s.start.notes));
+      plural(s.factorizations, "factorisation"), edges_text(s), loads_text(s),
+      s.max_position_violation, s.max_velocity_violation, notes_text(s.start.notes));
 }
 
 std::string files_text(const RunPaths& paths, bool has_table, bool no_report) {

@@ -121,7 +121,9 @@ struct Bearing {
 /// Friction on a coordinate of a joint: bristles with the deflection z and a normal force N as a
 /// factor: F = N radius (stiffness z + damping zdot) + viscous qdot, against the motion. Sliding at
 /// a constant speed it is N radius (kinetic + (breakaway - kinetic) exp(-(qdot / stribeck)^2)) +
-/// viscous qdot. N = normal + preload, never below 0; 1 without both.
+/// viscous qdot. N = normal + preload, never below 0; 1 without both. With `reaction` N radius is
+/// the sum of N radius, without both 0, and of the forces that the bearing of the joint carries, of
+/// an angle times their radii.
 struct BristleFriction {
   std::string joint;
   int coordinate = -1;            ///< its number from 0; -1: the only one
@@ -135,6 +137,10 @@ struct BristleFriction {
   std::optional<SignalDescription> normal;  ///< absent: 0
   std::optional<double> preload;            ///< a part of N, not negative [N]; absent: 0
   double radius = 1.0;                      ///< of the faces of a brake or clutch [m]
+  bool reaction = false;                    ///< the reaction of the joint is a part of N
+  std::optional<double> bearing_radius;     ///< of the pin, across the axis [m]; absent: 0
+  std::optional<double> axial_radius;       ///< of the shoulder or the thread [m]; absent: 0
+  std::optional<double> bearing_length;     ///< that carries moments [m]; absent: none does
 };
 
 /// Pushes two points apart that are closer than `length`, with the compression d = length - s:

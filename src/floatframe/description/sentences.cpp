@@ -232,6 +232,12 @@ Complaint normal_force(const SignalDescription& normal) {
   return "found " + number_text(pieces[0].coefficients[0]) + ", expected a number >= 0";
 }
 
+std::string is_for(const std::string& use) { return "is for " + use + "; remove this key"; }
+
+std::string reaction_of(const std::string& type) {
+  return "found a " + type + " joint, expected one that moves along or about its axis only";
+}
+
 Complaint bearing_stiffness(const MatX& K) {
   if (K.rows() < 6 || (K.row(5).isZero(0.0) && K.col(5).isZero(0.0))) return std::nullopt;
   return "found numbers in the sixth row or column, expected zeros: a bearing lets the shaft turn "

@@ -131,6 +131,10 @@ std::string step_over_samples(const std::string& element, double period, double 
 std::string long_delay(double delay, double period, int most);
 /// A constant that is negative.
 Complaint normal_force(const SignalDescription& normal);
+/// Of a key that others do not use.
+std::string is_for(const std::string& use);
+/// Of friction from the reaction of a joint of a type that has none for it.
+std::string reaction_of(const std::string& type);
 /// For a bearing, 6 x 6 or 2 x 2: nothing constrains the spin.
 Complaint bearing_stiffness(const MatX& K);
 /// Of a model file, where a function is expected.

@@ -79,6 +79,8 @@ class AbsoluteFormulation final : public Formulation {
     tangent_.balance(lambda, r);
     constraint_set_.set_multipliers(lambda, 0.0);
   }
+  /// The multipliers contain all reactions.
+  void find_loads(const VecX&, const VecX& lambda, VecX& out) noexcept override;
   void constraint_rates(VecX& out) noexcept override;
   void constraint_accelerations(const VecX& a, VecX& out) noexcept override;
   void constraint_increments(const VecX& delta, VecX& out) noexcept override;

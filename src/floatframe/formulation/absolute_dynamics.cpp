@@ -102,6 +102,14 @@ void AbsoluteFormulation::residual(const VecX& a, const VecX& lambda, double alp
   add_constraint_forces(constraint_set_.weights(), out);
 }
 
+void AbsoluteFormulation::find_loads(const VecX&, const VecX& lambda, VecX& out) noexcept {
+  assert(calls_.has(CallOrder::velocities));
+  assert(lambda.size() == constraints() && out.size() == load_count());
+  for (int i = 0; i < load_count(); ++i)
+    out[i] = load_readers_.load(i, load_readers_.wrench(i, constraint_set_, lambda),
+                                [&](int k) -> const MarkerState& { return marker(k); });
+}
+
 void AbsoluteFormulation::constraint_rates(VecX& out) noexcept {
   assert(calls_.has(CallOrder::velocities) && out.size() == constraints());
   FLOATFRAME_DEBUG(poison(out));

@@ -173,6 +173,18 @@ class ElementSet {
   /// Since the beginning of the last step.
   const ThrownByElement& thrown() const noexcept { return thrown_; }
 
+  /// The load of element k, that of its joint (model/joint_load.hpp).
+  double load(std::size_t k) const noexcept {
+    assert(model_.elements[k].load.joint >= 0);
+    return z_.of(k)[load_place(k)];
+  }
+  /// Its efforts with another load, at the ports of the last evaluation.
+  void set_load(std::size_t k, double value, const Ports& in) noexcept {
+    assert(model_.elements[k].load.joint >= 0);
+    z_.of(k)[load_place(k)] = value;
+    if (!held_) evaluate_element(in, states_[k]);
+  }
+
   /// Left-hand side of the elements, -Q: calls add(marker, force, torque) for each marker of each.
   template <class Add>
   void add_wrenches(const Add& add) const noexcept {
@@ -180,6 +192,9 @@ class ElementSet {
   }
 
  private:
+  int load_place(std::size_t k) const noexcept {
+    return model_.elements[k].states + model_.elements[k].kept - 1;
+  }
   void evaluate_one(std::size_t k, const Ports& in) noexcept {
     if (z_.follow())
       z_.solve(k, in, states_[k]);

@@ -95,6 +95,14 @@ void ElementStates::after_step(std::size_t element, const Ports& in) noexcept {
     change(in, z_.data() + offsets_[element]);
 }
 
+void ElementStates::clear_kept_rates(VecX& rates) const noexcept {
+  assert(rates.size() == z_.size());
+  for (const std::size_t k : elements_) {
+    const Element& e = model_.elements[k];
+    rates.segment(offsets_[k] + e.states, e.kept).setZero();
+  }
+}
+
 void ElementStates::take_rates(const std::vector<Efforts>& efforts) noexcept {
   for (const std::size_t k : elements_)
     for (Eigen::Index i = 0; i < std::ssize(efforts[k].state_rates); ++i)

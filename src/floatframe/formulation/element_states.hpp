@@ -75,6 +75,8 @@ class ElementStates {
   void start(std::size_t element, const Ports& in, bool found) noexcept;
   void after_step(std::size_t element, const Ports& in) noexcept;
   void take_rates(const std::vector<Efforts>& efforts) noexcept;
+  /// Kept numbers have no rates, also if they change within a step.
+  void clear_kept_rates(VecX& rates) const noexcept;
 
   // What solves for the states of several elements together uses:
   double* of(std::size_t element) noexcept { return z_.data() + offsets_[element]; }

@@ -30,6 +30,9 @@
 //           (delta, out)
 //   constraint_forces(w, out)   velocities      out = Phi_q^T w
 //   balance(lambda, r)          residual        multipliers internal to the formulation
+//   loads(out)                  -               the loads of joints that elements read
+//   find_loads(a, lambda, out)  dynamics        those of the reactions of a and lambda
+//   set_loads(loads)            dynamics        the efforts of these elements with these loads
 //   retract(q0, x, q)                           q = q0 (+) x
 //   settle(q0, x)                               x such that q0 (+) x satisfies exact constraints
 //                                               of the formulation
@@ -101,6 +104,14 @@ concept EquationsOfMotion = requires(F& f, const F& c, double x, int slot, const
   /// Adds to lambda, and to the residual r, the multipliers of constraints that the formulation
   /// satisfies exactly, for (lambda, r), after `residual`.
   { f.balance(out, out) } noexcept -> std::same_as<void>;
+
+  /// Of the joints whose reactions elements read (model/joint_load.hpp), for (loads),
+  /// (a, lambda, loads), (loads). They stay those of the last `set_loads`, and are a part of the
+  /// states of elements. The tangent leaves out that they depend on a and lambda.
+  { c.load_count() } noexcept -> std::same_as<int>;
+  { c.loads(out) } noexcept -> std::same_as<void>;
+  { f.find_loads(in, in, out) } noexcept -> std::same_as<void>;
+  { f.set_loads(in) } noexcept -> std::same_as<void>;
 
   /// Signals between elements add B V^T to T, for (damping, s, B, V), nv x the rank.
   { c.signal_rank() } noexcept -> std::same_as<int>;

@@ -14,6 +14,7 @@ Formulation::Formulation(const Model& model, const std::vector<int>& constrained
     : model_(model),
       constraint_set_(model, constrained_joints),
       element_set_(model),
+      load_readers_(model, constraint_set_),
       signal_tangent_(model),
       motion_(model) {
   constraint_set_.count_turns_with(element_set_);

@@ -15,6 +15,7 @@
 #include "floatframe/formulation/constraint_set.hpp"
 #include "floatframe/formulation/counts.hpp"
 #include "floatframe/formulation/element_set.hpp"
+#include "floatframe/formulation/load_readers.hpp"
 #include "floatframe/formulation/local_marker.hpp"
 #include "floatframe/formulation/signal_tangent.hpp"
 #include "floatframe/math/contracts.hpp"
@@ -114,6 +115,18 @@ class Formulation {
   virtual void solve(VecX& b, int slot = 0) noexcept = 0;
   virtual void solve(VecX& b, const VecX& phi, double penalty, VecX& mu, int slot) noexcept = 0;
   virtual void balance(VecX& lambda, VecX& r) noexcept = 0;
+  int load_count() const noexcept { return load_readers_.count(); }
+  /// Their present values.
+  void loads(VecX& out) const noexcept {
+    for (int i = 0; i < load_count(); ++i) out[i] = element_set_.load(load_readers_.element(i));
+  }
+  virtual void find_loads(const VecX& a, const VecX& lambda, VecX& out) noexcept = 0;
+  void set_loads(const VecX& loads) noexcept {
+    assert(loads.size() == load_count());
+    for (int i = 0; i < load_count(); ++i)
+      element_set_.set_load(load_readers_.element(i), loads[i], ports(load_readers_.element(i)));
+  }
+  const LoadReaders& load_readers() const noexcept { return load_readers_; }
   const VecX& constraint_values() const noexcept {
     assert(calls_.has(CallOrder::velocities));
     return constraint_set_.values();
@@ -182,6 +195,7 @@ class Formulation {
   const Model& model_;
   ConstraintSet constraint_set_;
   ElementSet element_set_;
+  LoadReaders load_readers_;
   [[no_unique_address]] CallOrder calls_;
   double time_ = 0.0;
   VecX omega2_;

@@ -89,6 +89,7 @@ class RelativeFormulation final : public Formulation {
     mu += phi;
   }
   void balance(VecX&, VecX&) noexcept override {}
+  void find_loads(const VecX& a, const VecX& lambda, VecX& out) noexcept override;
   void constraint_rates(VecX& out) noexcept override;
   void constraint_accelerations(const VecX& a, VecX& out) noexcept override;
   void constraint_increments(const VecX& delta, VecX& out) noexcept override;
@@ -129,6 +130,11 @@ class RelativeFormulation final : public Formulation {
   void fill_momenta(int body, BodyKinematics& x) const noexcept override;
   const BodyInertia& inertia(int body) const noexcept override { return terms_[body].inertia; }
 
+  /// (1), about the evaluation origin, with the weights w of the constraints.
+  void find_wrenches(const VecX& a, const VecX& w) noexcept;
+  /// After `project`: of the parent on the child of a joint as described, about M.
+  Wrench tree_wrench(int joint, const TreeBody& child) const noexcept;
+
   /// An angle of a tree joint that elements count: its place in those of `element_set_` and in q.
   struct TreeAngle {
     int slot, iq;
@@ -146,7 +152,7 @@ class RelativeFormulation final : public Formulation {
   BodyVectors wrenches_;    ///< of the last residual or constraint forces
   BodyVectors increments_;  ///< motions of the bodies under an increment
   VecX weights_;            ///< of `solve`
-  VecX projected_;          ///< of `add_wrenches`
+  VecX projected_;          ///< of `add_wrenches` and `find_loads`
 };
 
 }  // namespace floatframe

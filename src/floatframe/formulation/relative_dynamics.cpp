@@ -48,10 +48,7 @@ Ports RelativeFormulation::ports(std::size_t element) const noexcept {
   return element_set_.ports(element, tree_.origin(), time_);
 }
 
-void RelativeFormulation::residual(const VecX& a, const VecX& lambda, double alpha,
-                                   VecX& out) noexcept {
-  assert(calls_.has(CallOrder::dynamics) && alpha >= 0.0 && lambda.size() == constraints());
-  FLOATFRAME_DEBUG(calls_.reach(CallOrder::residual));
+void RelativeFormulation::find_wrenches(const VecX& a, const VecX& w) noexcept {
   FLOATFRAME_DEBUG(calls_.accelerate());
   tree_.accelerations(a);
   for (const int i : tree_.order()) {  // (1)
@@ -69,13 +66,46 @@ void RelativeFormulation::residual(const VecX& a, const VecX& lambda, double alp
     add_product(data.K.data(), b.nm, b.nm, b.y.data(), h.data() + 6);
     if (t.damped) add_product(data.D.data(), b.nm, b.nm, b.yd.data(), h.data() + 6);
   }
-  constraint_set_.set_multipliers(lambda, alpha);
   const auto add = [&](int marker, const Vec3& force, const Vec3& torque) {
     tree_.add_wrench(marker, force, torque, wrenches_);
   };
   element_set_.add_wrenches(add);
-  constraint_set_.add_wrenches(constraint_set_.weights(), add);
+  constraint_set_.add_wrenches(w, add);
+}
+
+void RelativeFormulation::residual(const VecX& a, const VecX& lambda, double alpha,
+                                   VecX& out) noexcept {
+  assert(calls_.has(CallOrder::dynamics) && alpha >= 0.0 && lambda.size() == constraints());
+  FLOATFRAME_DEBUG(calls_.reach(CallOrder::residual));
+  constraint_set_.set_multipliers(lambda, alpha);
+  find_wrenches(a, constraint_set_.weights());
   tree_.project(wrenches_, out);
+}
+
+/// Of joints that are cut by their multipliers, of others by what is further out in the tree.
+void RelativeFormulation::find_loads(const VecX& a, const VecX& lambda, VecX& out) noexcept {
+  assert(calls_.has(CallOrder::dynamics) && lambda.size() == constraints());
+  assert(out.size() == load_count());
+  find_wrenches(a, lambda);
+  tree_.project(wrenches_, projected_);
+  for (int i = 0; i < load_count(); ++i) {
+    Wrench w = load_readers_.wrench(i, constraint_set_, lambda);
+    const int joint = load_readers_.joint(i), body = tree_.body_of_joint(joint);
+    if (body >= 0) {
+      const Wrench of_tree = tree_wrench(joint, tree_.body(body));
+      w.F += of_tree.F;
+      w.T += of_tree.T;
+    }
+    out[i] = load_readers_.load(
+        i, w, [&](int marker) -> const MarkerState& { return tree_.marker(marker).s; });
+  }
+}
+
+Wrench RelativeFormulation::tree_wrench(int joint, const TreeBody& child) const noexcept {
+  const Vec6 h = wrenches_[tree_.body_of_joint(joint)].head<6>();
+  const double sign = child.reversed ? -1.0 : 1.0;
+  const Vec3& r = tree_.marker(model_.joints[joint].frame_M).s.r;
+  return {sign * h.head<3>(), sign * (h.tail<3>() - r.cross(h.head<3>()))};
 }
 
 void RelativeFormulation::constraint_forces(const VecX& w, VecX& out) noexcept {

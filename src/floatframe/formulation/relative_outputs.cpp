@@ -77,12 +77,9 @@ void RelativeFormulation::add_tree_wrenches(Reactions& reactions) const noexcept
   for (std::size_t j = 0; j < reactions.joints.size(); ++j) {
     const int i = tree_.body_of_joint(static_cast<int>(j));
     if (i < 0) continue;
-    const TreeBody& b = tree_.body(i);
-    const Vec6 h = wrenches_[i].head<6>();
-    const double sign = b.reversed ? -1.0 : 1.0;  // on the child of the joint as described
-    const Vec3& r = tree_.marker(model_.joints[j].frame_M).s.r;
-    reactions.joints[j].force += sign * h.head<3>();
-    reactions.joints[j].torque += sign * (h.tail<3>() - r.cross(h.head<3>()));
+    const Wrench w = tree_wrench(static_cast<int>(j), tree_.body(i));
+    reactions.joints[j].force += w.F;
+    reactions.joints[j].torque += w.T;
   }
 }
 

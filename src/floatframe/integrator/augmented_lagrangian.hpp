@@ -28,7 +28,8 @@
 // repeated until the tolerance.
 //
 // States of elements follow the iterate (state_scheme.hpp); C and K contain what follows from them.
-// Signals between elements are a low-rank part of T (signal_update.hpp).
+// Signals between elements are a low-rank part of T (signal_update.hpp). Friction from reactions
+// follows the iterate (load_iteration.hpp).
 // Nothing here allocates after construction, throws or prints. The state changes only when the step
 // is accepted.
 #include <algorithm>
@@ -41,6 +42,7 @@
 #include "floatframe/formulation/equations_of_motion.hpp"
 #include "floatframe/formulation/relative.hpp"
 #include "floatframe/integrator/integrator.hpp"
+#include "floatframe/integrator/load_iteration.hpp"
 #include "floatframe/integrator/signal_update.hpp"
 #include "floatframe/integrator/state_scheme.hpp"
 #include "floatframe/integrator/step_scheme.hpp"
@@ -53,7 +55,10 @@ template <EquationsOfMotion F>
 class AugmentedLagrangian final : public Integrator {
  public:
   AugmentedLagrangian(F& formulation, const StepOptions& options)
-      : Integrator(options, formulation.constraints()), f_(formulation), signals_(formulation) {
+      : Integrator(options, formulation.constraints()),
+        f_(formulation),
+        signals_(formulation),
+        loads_(formulation) {
     const int nv = f_.velocities(), nc = f_.constraints();
     q_ = VecX::Zero(f_.configurations());
     x_ = v_ = a_ = a_alg_ = rhs_ = delta_ = v_hat_ = a_hat_ = VecX::Zero(nv);
@@ -138,6 +143,9 @@ class AugmentedLagrangian final : public Integrator {
     scheme.accept(s, f_.element_states().values(), z_hat_);
     f_.change_kept_states();
     s.z = f_.element_states().values();
+    if (!loads_.needed()) return;
+    f_.element_states().clear_kept_rates(s.zd);
+    f_.element_states().clear_kept_rates(s.zd_alg);
   }
 
   /// The state at the end of the step.
@@ -158,47 +166,8 @@ class AugmentedLagrangian final : public Integrator {
     assert(fits(state));
   }
 
-  /// The histories v_hat and a_hat, and the first guess of x.
-  void predict(const State& state, const Scheme& k, bool careful) noexcept {
-    // (a) in (b) and (c), with x = 0 in (a): `known` is -a_alg_n+1 without x.
-    const double h = k.h, from_v = h, from_a = h * h * (0.5 - k.beta);
-    const VecX& omega2 = f_.own_frequencies_squared();
-    assert(omega2.size() == x_.size());
-    for (Eigen::Index i = 0; i < x_.size(); ++i) {
-      const double known = k.base * (from_v * state.v[i] + from_a * state.a_alg[i]);
-      v_hat_[i] = state.v[i] + h * (1.0 - k.gamma) * state.a_alg[i] - h * k.gamma * known;
-      a_hat_[i] = (k.am * state.a_alg[i] - k.af * state.a[i] - (1.0 - k.am) * known) / (1.0 - k.af);
-      // Each coordinate as an uncoupled oscillator (frequency 0 for rigid coordinates), a = f -
-      // omega^2 x under a constant load f. A Taylor step would overshoot for modes with omega h >>
-      // 1.
-      x_[i] = (state.a[i] - a_hat_[i]) / (k.c2 + omega2[i]);
-      // Accelerations of massless coordinates are undefined: they follow from positions, and the
-      // trapezoidal rule makes them oscillate with alternating sign.
-      const double steady = h * state.v[i];
-      if (omega2[i] == no_inertia ||
-          (careful && omega2[i] == 0.0 && std::abs(x_[i] - steady) > max_predictor_step))
-        x_[i] = steady;
-    }
-    f_.settle(state.q, x_);
-    lambda_ = state.lambda;
-    if (has_states()) begin_states(state, StateScheme(k.rho, h));
-  }
-
-  /// Near a singular configuration the penalty may be too small, and a shorter step does not help;
-  /// or the predictor has moved a body of very small mass too far. Repeats the step with a larger
-  /// penalty and a predictor that ignores such accelerations.
-  void retry_step(const State& state, Scheme& k, StepAttempt& report) noexcept {
-    assert(!report.accepted());
-    k.penalty *= retry_penalty_factor;
-    k.alpha *= retry_penalty_factor;
-    StepAttempt again;
-    predict(state, k, true);
-    newton(state, k, again);
-    again.iterations += report.iterations;
-    again.factorizations += report.factorizations;
-    again.size = report.size;
-    report = again;
-  }
+  void predict(const State& state, const Scheme& k, bool careful) noexcept;
+  void retry_step(const State& state, Scheme& k, StepAttempt& report) noexcept;
 
   /// State of the Newton iteration between two passes.
   struct Iterate {
@@ -232,6 +201,8 @@ class AugmentedLagrangian final : public Integrator {
       }
       f_.dynamics();
       if (has_states() && !check_states(report)) return;
+      if (loads_.needed())
+        loads_.follow(f_, a_, lambda_, it.penalty, report.iterations > 0 ? newton_slot : -1);
       f_.residual(a_, lambda_, 0.0, rhs_);
       f_.balance(lambda_, rhs_);
       if (it.renew && !renew_tangent(k, it, report)) return;
@@ -337,6 +308,7 @@ class AugmentedLagrangian final : public Integrator {
   }
 
   bool is_converged(const StepAttempt& report, double error) const noexcept {
+    if (loads_.needed() && report.iterations < LoadIteration<F>::least_iterations) return false;
     // An increment below the tolerance leaves a much smaller error; a predicted error below a
     // fiftieth of the tolerance needs no further increment to confirm it.
     const bool small = report.increment < options_.tolerance && error < options_.tolerance;
@@ -377,6 +349,7 @@ class AugmentedLagrangian final : public Integrator {
 
   F& f_;
   SignalUpdate<F> signals_;
+  LoadIteration<F> loads_;
   VecX q_, x_, v_, a_, a_alg_, rhs_, delta_, v_hat_, a_hat_;
   VecX lambda_, rate_, work_, increments_;
   VecX z_hat_;  ///< of the states of elements
@@ -385,6 +358,7 @@ class AugmentedLagrangian final : public Integrator {
 }  // namespace floatframe
 
 // The remaining member functions.
+#include "floatframe/integrator/prediction.hpp"
 #include "floatframe/integrator/projections.hpp"
 #include "floatframe/integrator/restart.hpp"
 

@@ -10,6 +10,7 @@ template <EquationsOfMotion F>
 inline void AugmentedLagrangian<F>::end_states(StepAttempt& report) noexcept {
   if (report.accepted()) f_.solve_element_states();
   check_states(report);
+  if (loads_.needed()) report.load_contraction = loads_.contraction();
   f_.element_states().stop();
 }
 

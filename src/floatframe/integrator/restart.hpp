@@ -40,6 +40,7 @@ bool AugmentedLagrangian<F>::restart(State& state, double h) noexcept {
   state.a.swap(a_);
   state.a_alg = state.a;
   if (has_states()) state.zd = state.zd_alg = f_.element_states().rates();
+  if (loads_.needed()) state.z = f_.element_states().values();
   reactions_ = state.lambda = lambda_;
   return true;
 }
@@ -62,6 +63,7 @@ bool AugmentedLagrangian<F>::restart_in_course(State& state, double h) noexcept 
     state.zd_alg += f_.element_states().rates() - state.zd;
     state.zd = f_.element_states().rates();
   }
+  if (loads_.needed()) state.z = f_.element_states().values();
   reactions_ = state.lambda = lambda_;
   return true;
 }
@@ -89,9 +91,11 @@ bool AugmentedLagrangian<F>::iterate_accelerations(double s, double penalty,
   constexpr int most_passes = 40;
   constexpr double no_stiffness = 1e-30;
   if (f_.factorize_metric(s > 0.0 ? s : no_stiffness, penalty, projection_slot) >= 0) return false;
-  const bool exact = f_.constraints() == 0 && !(s > 0.0);
+  const bool exact = f_.constraints() == 0 && !(s > 0.0) && !loads_.needed();
   double last = std::numeric_limits<double>::infinity();
+  if (loads_.needed()) loads_.begin();
   for (int pass = 0; pass < most_passes; ++pass) {
+    if (loads_.needed()) loads_.iterate(f_, a_, lambda_);
     f_.residual(a_, lambda_, 0.0, rhs_);
     f_.balance(lambda_, rhs_);
     delta_ = -rhs_;

@@ -73,6 +73,8 @@ struct StepAttempt {
   /// Sum of the logarithms of the pivots of the projection metric with the full penalty: it drops
   /// where constraints become dependent. NaN: there are no projections.
   double log_pivots = std::numeric_limits<double>::quiet_NaN();
+  /// The largest one of the loads of friction (load_iteration.hpp): 0 without any.
+  double load_contraction = 0.0;
   /// True if the state was replaced by the state at the end of the step.
   bool accepted() const noexcept {
     return status == AttemptStatus::converged || status == AttemptStatus::cut_short;

@@ -132,7 +132,8 @@ CountedStiffening counted_at(const Model& model, const SimulationOptions& option
   CountedStiffening counted = counted_stiffening(there);
   counted.model.linear = true;
   for (const Element& e : counted.model.elements)
-    if (const auto note = element_kind(e.type).linear_note) counted.notes.push_back(note(e));
+    if (const auto note = element_kind(e.type).linear_note)
+      if (std::string text = note(e); !text.empty()) counted.notes.push_back(std::move(text));
   return counted;
 }
 

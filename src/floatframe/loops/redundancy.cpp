@@ -170,6 +170,8 @@ std::optional<BalancedMultipliers> ConstraintAnalysis::multipliers(double residu
   return found;
 }
 
+MatX ConstraintAnalysis::balanced() const { return balanced_multipliers(MatX(J_)); }
+
 std::string redundancy_text(const std::vector<RedundantDirection>& redundant) {
   constexpr int most = 5;  // joints or rods
   std::string text;

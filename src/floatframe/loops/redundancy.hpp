@@ -35,6 +35,8 @@ class ConstraintAnalysis {
 
   /// Those of the rows that balance the model; none if they leave more than this residual.
   std::optional<BalancedMultipliers> multipliers(double residual) const;
+  /// Orthonormal multipliers of the rows that balance each other, as columns.
+  MatX balanced() const;
   const std::vector<ConstraintPart>& parts() const { return f_.constraint_set().parts(); }
   /// First row of a part.
   Eigen::Index row_of(std::size_t part) const { return f_.constraint_set().offset(part) - first_; }

@@ -154,7 +154,8 @@ struct ElementKind {
   /// What is odd about its start, for notes of statics and checks.
   void (*note)(const Element& element, const SystemMotion& start,
                std::vector<std::string>& notes) = nullptr;
-  /// What linear systems put in the place of its law, one sentence without its full stop.
+  /// What linear systems put in the place of its law, one sentence without its full stop; empty:
+  /// nothing else.
   std::string (*linear_note)(const Element& element) = nullptr;
   std::span<const ElementRegime> regimes;
   /// A random element and motion in one of the regimes, away from the kinks of its laws.

@@ -159,6 +159,14 @@ struct SampleClock {
   bool ticks() const noexcept { return period > 0.0; }
 };
 
+/// What an element reads of the reaction of a joint. The load is its last kept number [N] or [N m].
+struct LoadPort {
+  int joint = -1;       ///< -1: none
+  double across = 1.0;  ///< factor of the forces across the axis [1] or [m]
+  double along = 0.0;   ///< of the force along the axis [1] or [m]
+  double length = 0.0;  ///< of the bearing, which carries moments [m]; 0: none does
+};
+
 /// An element: what it is connected to, by index, and what it does. The table of
 /// keys of its kind gives the key of each law and signal.
 struct Element {
@@ -169,6 +177,7 @@ struct Element {
   std::vector<Signal> signals;              ///< those of its keys, in their order
   std::vector<CoordinatePort> coordinates;  ///< of joints, in the order of its kind
   std::vector<FormulaOperand> operands;     ///< of the references of its formula
+  LoadPort load;                            ///< of the joint whose reaction it reads
   std::vector<std::string> values;          ///< the names of its values, if it has several
   int road = -1;
   int states = 0;             ///< variables of first order of its law

@@ -99,9 +99,9 @@ class ModelHash {
     if (factor != 1.0 || offset != 0.0) all(factor, offset);
   }
   void add(const Element& e) {
-    const auto& [name, type, markers, laws, signals, coordinates, operands, values, road, states,
-                 kept, clock, remembers, start, acts, holds, reads, rotational, driven, jumps,
-                 switched, keys, data] = e;
+    const auto& [name, type, markers, laws, signals, coordinates, operands, load, values, road,
+                 states, kept, clock, remembers, start, acts, holds, reads, rotational, driven,
+                 jumps, switched, keys, data] = e;
     all(name, type, markers, laws, signals, operands, road, rotational);
     if (remembers) all(kept);
     const ElementDescription described{name, *keys, {}};

@@ -103,6 +103,7 @@ std::string summary_json(const RunSummary& s) {
                  {"step_s", s.step}});
   if (began) json.update(measured(s));
   if (began && !s.until.empty()) json["until"] = until(s);
+  if (began && s.max_load_contraction > 0.0) json["load_contraction"] = s.max_load_contraction;
   if (s.verification) json["verification"] = verification_json(*s.verification);
   json.update({{"status", s.status}, {"message", s.message}});
   if (!s.files.empty()) {

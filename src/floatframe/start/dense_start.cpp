@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "floatframe/core/plural.hpp"
+#include "floatframe/integrator/load_iteration.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/start/initial_state.hpp"
 #include "floatframe/start/light_motion.hpp"
@@ -249,7 +250,10 @@ void start_accelerations_dense(Formulation& f, State& state) {
   state.lambda = LeastNorm(J.transpose(), 1e-11).solve(VecX(force - mass * state.a));
 }
 
-bool start_accelerations(Formulation& f, State& state, double penalty_mass) {
+namespace {
+
+/// With the present states of elements.
+bool accelerations_at(Formulation& f, State& state, double penalty_mass) {
   state.a = VecX::Zero(f.velocities());
   state.lambda = VecX::Zero(f.constraints());
   const std::string overflow = overflow_text(f, state, state.t, largest_magnitude);
@@ -270,6 +274,27 @@ bool start_accelerations(Formulation& f, State& state, double penalty_mass) {
   state.a_alg = state.a;
   dynamics_at(f, state);
   return lacks_mass(growth);
+}
+
+}  // namespace
+
+bool start_accelerations(Formulation& f, State& state, double penalty_mass) {
+  const bool lacking = accelerations_at(f, state, penalty_mass);
+  if (f.load_count() == 0) return lacking;
+  // Loads of joints that friction reads depend on the accelerations, and these on the friction.
+  constexpr int most_rounds = 100;
+  constexpr double enough = 1e-9, most_left = 1e-4;
+  LoadIteration<Formulation> loads(f);
+  loads.begin();
+  for (int round = 0; round == 0 || (round < most_rounds && loads.change() > enough); ++round) {
+    loads.iterate(f, state.a, state.lambda);
+    state.z = f.element_states().values();
+    accelerations_at(f, state, penalty_mass);
+  }
+  if (loads.change() < most_left) return lacking;
+  throw RunError(ErrorCode::no_convergence,
+                 "the friction from reactions at the start grows with itself: the mechanism jams; "
+                 "make friction or the angles of pressure smaller");
 }
 
 }  // namespace floatframe

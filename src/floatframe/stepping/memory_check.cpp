@@ -30,7 +30,8 @@ bool consistent(const StepperMemory& m, double step) {
   for (const long n : {c.steps, c.substeps, c.iterations, c.factorizations, c.cut_short, c.edges,
                        c.edges_passed, c.corners})
     if (n < 0 || n > most) return false;
-  return c.max_position_violation >= 0.0 && c.max_velocity_violation >= 0.0;
+  return c.max_position_violation >= 0.0 && c.max_velocity_violation >= 0.0 &&
+         c.max_load_contraction >= 0.0;
 }
 
 }  // namespace

@@ -135,6 +135,7 @@ void serialize_steps(Stream& s, Memory& m) {
     s(*n);
   s(c.max_position_violation);
   s(c.max_velocity_violation);
+  s(c.max_load_contraction);
 }
 
 }  // namespace floatframe

@@ -46,6 +46,8 @@ struct StepCounters {
   long cut_short = 0;                   ///< accepted before they had converged (real time)
   double max_position_violation = 0.0;  ///< [m] after steps
   double max_velocity_violation = 0.0;  ///< [m/s] after the projections
+  /// Of the loads of joints that friction reads, from iteration to iteration; 0 without any.
+  double max_load_contraction = 0.0;
 };
 
 }  // namespace floatframe

@@ -286,6 +286,7 @@ void Stepper::count(const StepAttempt& r) noexcept {
   counters_.factorizations += r.factorizations;
   if (r.status == AttemptStatus::cut_short) ++counters_.cut_short;
   if (!r.accepted()) return;
+  counters_.max_load_contraction = std::max(counters_.max_load_contraction, r.load_contraction);
   counters_.max_position_violation =
       std::max(counters_.max_position_violation, r.position_violation);
   counters_.max_velocity_violation =
