@@ -10,6 +10,7 @@
 #include "floatframe/stepping/stepper.hpp"
 #include "support/allocation_counter.hpp"
 #include "support/completed_run.hpp"
+#include "support/error_of.hpp"
 #include "support/model_text.hpp"
 
 namespace floatframe::test {
@@ -113,6 +114,20 @@ TEST(SlideAlong, SagsAsTheBeamAnywhere) {
       EXPECT_NEAR(at(r, 0, "s"), a, 1e-9);
       EXPECT_NEAR(at(r, 0, "F.z"), 100.0 * beam_gravity, 1e-6 * 100.0 * beam_gravity);
     }
+}
+
+TEST(SlideAlong, PointsOfAFlexibleBodyAreNodes) {
+  const auto error = [](const std::string& points) {
+    std::string text = beam_with(clamped_ends + all_shapes) + trolley_at(1.0, 100.0, welded, "") +
+                       "simulation: {step: 0.001, duration: 0}\n";
+    const std::string drawn = "[[0, 0, 0], [2, 0, 0]]";
+    text.replace(text.find(drawn), drawn.size(), points);
+    return error_of([&] { model_of(text); });
+  };
+  EXPECT_EQ(error("[[0, 0, 0], [0.5, 0, 0], [2, 0, 0]]"), "no error");
+  EXPECT_NE(error("[[0, 0, 0], [1.95, 0, 0]]").find("slide.points: not_found"), std::string::npos);
+  EXPECT_NE(error("[[0, 0, 0], [2, 0, 0.1]]").find("slide.points: not_found"), std::string::npos);
+  EXPECT_NE(error("[[0, 0, 0], [1.0e-7, 0, 0]]").find("slide.points: geometry"), std::string::npos);
 }
 
 // Without the shapes of the path the modes leave out a part of the sag, which a hint names.
