@@ -34,22 +34,26 @@ class SlideRows : public ::testing::Test {
   Model model_ = build_model(sliding_pair());
   RandomPair pair_{model_, 5};
 
-  /// On the path at time_of_slide, and moving along it as the motion says.
-  template <class F>
-  void put_on_path(F& f, VecX& q, VecX& v) {
+  /// Moves the trolley to the path at time_of_slide, and along it as the motion says.
+  static void put_on_path(RelativeFormulation& f, VecX& q, VecX& v) {
+    const TreeBody& trolley = f.tree().body(1);
+    const auto by_trolley = [&](const VecX& error) {
+      const MatX J = f.constraint_jacobian().middleCols(trolley.iv, trolley.nj);
+      VecX dx = VecX::Zero(f.velocities());
+      dx.segment(trolley.iv, trolley.nj) = -J.completeOrthogonalDecomposition().solve(error);
+      return dx;
+    };
     for (int round = 0; round < 30; ++round) {
       evaluate_at(f, time_of_slide, q, v);
-      const VecX phi = f.constraint_values();
-      if (largest(phi) < 1e-13) break;
-      const VecX dx = -f.constraint_jacobian().completeOrthogonalDecomposition().solve(phi);
+      if (largest(f.constraint_values()) < 1e-13) break;
       const VecX before = q;
-      f.retract(before, dx, q);
+      f.retract(before, by_trolley(f.constraint_values()), q);
     }
     evaluate_at(f, time_of_slide, q, v);
     EXPECT_LT(largest(f.constraint_values()), 1e-12);
     VecX rates(f.constraints());
     f.constraint_rates(rates);
-    v -= f.constraint_jacobian().completeOrthogonalDecomposition().solve(rates);
+    v += by_trolley(rates);
   }
 };
 
