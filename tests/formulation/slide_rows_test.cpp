@@ -1,5 +1,5 @@
-// The rows of a point that slides along nodes of a flexible body, where it is on its path: gradients
-// and accelerations against differences, in both formulations.
+// The rows of a point that slides along nodes of a flexible body, where it is on its path:
+// gradients and accelerations against differences, in both formulations.
 #include <gtest/gtest.h>
 
 #include "support/random_model.hpp"
@@ -7,7 +7,7 @@
 namespace floatframe::test {
 namespace {
 
-constexpr double time_of_rows = 0.3;
+constexpr double time_of_slide = 0.3;
 
 /// A flexible body and a free one, whose point slides along nodes of the first with a motion.
 ModelDescription sliding_pair() {
@@ -34,22 +34,26 @@ class SlideRows : public ::testing::Test {
   Model model_ = build_model(sliding_pair());
   RandomPair pair_{model_, 5};
 
-  /// On the path at time_of_rows, and moving along it as the motion says.
-  template <class F>
-  void put_on_path(F& f, VecX& q, VecX& v) {
+  /// Moves the trolley to the path at time_of_slide, and along it as the motion says.
+  static void put_on_path(RelativeFormulation& f, VecX& q, VecX& v) {
+    const TreeBody& trolley = f.tree().body(1);
+    const auto by_trolley = [&](const VecX& error) {
+      const MatX J = f.constraint_jacobian().middleCols(trolley.iv, trolley.nj);
+      VecX dx = VecX::Zero(f.velocities());
+      dx.segment(trolley.iv, trolley.nj) = -J.completeOrthogonalDecomposition().solve(error);
+      return dx;
+    };
     for (int round = 0; round < 30; ++round) {
-      evaluate_at(f, time_of_rows, q, v);
-      const VecX phi = f.constraint_values();
-      if (largest(phi) < 1e-13) break;
-      const VecX dx = -f.constraint_jacobian().completeOrthogonalDecomposition().solve(phi);
+      evaluate_at(f, time_of_slide, q, v);
+      if (largest(f.constraint_values()) < 1e-13) break;
       const VecX before = q;
-      f.retract(before, dx, q);
+      f.retract(before, by_trolley(f.constraint_values()), q);
     }
-    evaluate_at(f, time_of_rows, q, v);
+    evaluate_at(f, time_of_slide, q, v);
     EXPECT_LT(largest(f.constraint_values()), 1e-12);
     VecX rates(f.constraints());
     f.constraint_rates(rates);
-    v -= f.constraint_jacobian().completeOrthogonalDecomposition().solve(rates);
+    v += by_trolley(rates);
   }
 };
 
@@ -60,19 +64,19 @@ TEST_F(SlideRows, AreThoseOfDifferencesOnThePath) {
   const VecX a = random.vector(relative.velocities(), 3.0);
   const VecX aa = absolute_accelerations(relative, absolute, q, v, a);
   const auto check = [&](auto& f, const VecX& place, const VecX& rate, const VecX& acceleration) {
-    evaluate_at(f, time_of_rows, place, rate);
+    evaluate_at(f, time_of_slide, place, rate);
     EXPECT_LT(largest(f.constraint_values().tail(rows)), 1e-10);
     constexpr double h = 1e-5;
     VecX plus(f.constraints()), minus(f.constraints()), exact(f.constraints()), moved = place;
     const auto go = [&](double dt, bool values, VecX& out) {
       f.retract(place, dt * rate + 0.5 * dt * dt * acceleration, moved);
-      evaluate_at(f, time_of_rows + dt, moved, rate + dt * acceleration);
+      evaluate_at(f, time_of_slide + dt, moved, rate + dt * acceleration);
       values ? void(out = f.constraint_values()) : f.constraint_rates(out);
     };
     for (const bool values : {true, false}) {
       go(h, values, plus);
       go(-h, values, minus);
-      evaluate_at(f, time_of_rows, place, rate);
+      evaluate_at(f, time_of_slide, place, rate);
       values ? f.constraint_rates(exact) : f.constraint_accelerations(acceleration, exact);
       for (Eigen::Index i = f.constraints() - rows; i < f.constraints(); ++i)
         EXPECT_NEAR(exact[i], (plus[i] - minus[i]) / (2.0 * h), 2e-6 * (1.0 + std::abs(exact[i])))
@@ -87,10 +91,10 @@ TEST_F(SlideRows, AreThoseOfDifferencesOnThePath) {
     for (int j = 0; j < f.velocities(); ++j) {
       const VecX unit = VecX::Unit(f.velocities(), j);
       f.retract(place, h * unit, moved);
-      evaluate_at(f, time_of_rows, moved, rate);
+      evaluate_at(f, time_of_slide, moved, rate);
       plus = f.constraint_values();
       f.retract(place, -h * unit, moved);
-      evaluate_at(f, time_of_rows, moved, rate);
+      evaluate_at(f, time_of_slide, moved, rate);
       const VecX slope = (plus - f.constraint_values()) / (2.0 * h);
       for (Eigen::Index i = f.constraints() - rows; i < f.constraints(); ++i)
         EXPECT_NEAR(J(i, j), slope[i], 1e-7 * (1.0 + std::abs(slope[i]))) << i << ' ' << j;

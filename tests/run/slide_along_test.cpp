@@ -10,13 +10,14 @@
 #include "floatframe/stepping/stepper.hpp"
 #include "support/allocation_counter.hpp"
 #include "support/completed_run.hpp"
+#include "support/error_of.hpp"
 #include "support/model_text.hpp"
 
 namespace floatframe::test {
 namespace {
 
-constexpr double length = 2.0, young_I = 2.1e11 * 0.05 * 0.02 * 0.02 * 0.02 / 12.0,
-                 mass_per_length = 7850.0 * 0.02 * 0.05, gravity = 9.81;
+constexpr double beam_length = 2.0, young_I = 2.1e11 * 0.05 * 0.02 * 0.02 * 0.02 / 12.0,
+                 mass_per_length = 7850.0 * 0.02 * 0.05, beam_gravity = 9.81;
 
 /// Of 20 elements from x = 0 to 2; `ends`: its clamped dofs and modes.
 std::string beam_with(const std::string& ends) {
@@ -93,13 +94,13 @@ double at(const RunResult& r, std::size_t row, const std::string& column) {
 
 /// Below a load F at a of a beam with clamped ends, with its own weight.
 double clamped_sag(double a, double F) {
-  const double b = length - a;
-  return F * std::pow(a * b / length, 3) / (3.0 * young_I) +
-         mass_per_length * gravity * a * a * b * b / (24.0 * young_I);
+  const double b = beam_length - a;
+  return F * std::pow(a * b / beam_length, 3) / (3.0 * young_I) +
+         mass_per_length * beam_gravity * a * a * b * b / (24.0 * young_I);
 }
 
 TEST(SlideAlong, SagsAsTheBeamAnywhere) {
-  EXPECT_NEAR(100.0 * gravity * std::pow(length, 3) / (192.0 * young_I), 5.84e-3, 1e-5);
+  EXPECT_NEAR(100.0 * beam_gravity * std::pow(beam_length, 3) / (192.0 * young_I), 5.84e-3, 1e-5);
   for (const Coordinates c : both_coordinates)
     for (const double a : {1.0, 0.5, 1.4, 0.75, 0.33}) {
       const RunResult r =
@@ -107,12 +108,26 @@ TEST(SlideAlong, SagsAsTheBeamAnywhere) {
                   "simulation: {step: 0.001, duration: 0, start: equilibrium}\n",
               c);
       // The foot is on the path: sags are those of points that the bending does not move along it.
-      const double sag = clamped_sag(a, 100.0 * gravity);
+      const double sag = clamped_sag(a, 100.0 * beam_gravity);
       const bool node = std::abs(10.0 * a - std::round(10.0 * a)) < 1e-9;
       EXPECT_NEAR(at(r, 0, "cart.z"), -sag, (node ? 1e-6 : 2e-3) * sag) << a;
       EXPECT_NEAR(at(r, 0, "s"), a, 1e-9);
-      EXPECT_NEAR(at(r, 0, "F.z"), 100.0 * gravity, 1e-6 * 100.0 * gravity);
+      EXPECT_NEAR(at(r, 0, "F.z"), 100.0 * beam_gravity, 1e-6 * 100.0 * beam_gravity);
     }
+}
+
+TEST(SlideAlong, PointsOfAFlexibleBodyAreNodes) {
+  const auto error = [](const std::string& points) {
+    std::string text = beam_with(clamped_ends + all_shapes) + trolley_at(1.0, 100.0, welded, "") +
+                       "simulation: {step: 0.001, duration: 0}\n";
+    const std::string drawn = "[[0, 0, 0], [2, 0, 0]]";
+    text.replace(text.find(drawn), drawn.size(), points);
+    return error_of([&] { model_of(text); });
+  };
+  EXPECT_EQ(error("[[0, 0, 0], [0.5, 0, 0], [2, 0, 0]]"), "no error");
+  EXPECT_NE(error("[[0, 0, 0], [1.95, 0, 0]]").find("slide.points: not_found"), std::string::npos);
+  EXPECT_NE(error("[[0, 0, 0], [2, 0, 0.1]]").find("slide.points: not_found"), std::string::npos);
+  EXPECT_NE(error("[[0, 0, 0], [1.0e-7, 0, 0]]").find("slide.points: geometry"), std::string::npos);
 }
 
 // Without the shapes of the path the modes leave out a part of the sag, which a hint names.
@@ -135,18 +150,18 @@ TEST(SlideAlong, HintsAtTheSagThatModesLeaveOut) {
 double midspan_of_series(double force, double speed, double t) {
   double w = 0.0;
   for (int n = 1; n < 400; n += 2) {
-    const double k = n * std::numbers::pi / length,
+    const double k = n * std::numbers::pi / beam_length,
                  omega = k * k * std::sqrt(young_I / mass_per_length);
     const double Omega = k * speed, shape = n % 4 == 1 ? 1.0 : -1.0;
     w += shape * (std::sin(Omega * t) - Omega / omega * std::sin(omega * t)) /
          (omega * omega - Omega * Omega);
   }
-  return 2.0 * force / (mass_per_length * length) * w;
+  return 2.0 * force / (mass_per_length * beam_length) * w;
 }
 
 TEST(SlideAlong, AMovingLoadIsThatOfTheSeries) {
   const double omega =
-      std::pow(std::numbers::pi / length, 2) * std::sqrt(young_I / mass_per_length);
+      std::pow(std::numbers::pi / beam_length, 2) * std::sqrt(young_I / mass_per_length);
   const double step = 2.0 * std::numbers::pi / omega / 200.0, force = 10.0, speed = 10.0;
   const std::string ends =
       R"(      clamped: [{point: l, dofs: [x, y, z, rx]}, {point: r, dofs: [y, z]}]
@@ -164,7 +179,7 @@ TEST(SlideAlong, AMovingLoadIsThatOfTheSeries) {
   load: {{type: force, body: cart, direction: [0, 0, -1], magnitude: {:.15g}}}
 simulation: {{step: {:.15g}, duration: {:.15g}}}
 )",
-                        force, step, std::floor(length / speed / step) * step);
+                        force, step, std::floor(beam_length / speed / step) * step);
     const RunResult r = ran(text, c);
     double most = 0.0, worst = 0.0;
     for (std::size_t k = 0; k < r.table.rows(); ++k) {
@@ -174,7 +189,7 @@ simulation: {{step: {:.15g}, duration: {:.15g}}}
       EXPECT_NEAR(at(r, k, "s"), speed * r.table.at(k, 0), 1e-9);
       EXPECT_NEAR(at(r, k, "v"), speed, 1e-6);
     }
-    EXPECT_GT(most, 0.9 * force * std::pow(length, 3) / (48.0 * young_I));
+    EXPECT_GT(most, 0.9 * force * std::pow(beam_length, 3) / (48.0 * young_I));
     EXPECT_LT(worst, 1e-3 * most);
     std::printf("[ figure ] moving_load_%s %.1e\n", name_of(c).c_str(), worst / most);
   }

@@ -1,8 +1,8 @@
 #pragma once
 // A point that slides along nodes of a flexible body (model/slide_path.hpp): the material point of
-// the body at the foot u of another point p, which moves along the path with that. Body axes. Shared
-// by the formulations. Its position, velocity and gradients are those of the material point; what
-// follows from the change of u is in the rows that hold p (constraints/on_curve.cpp).
+// the body at the foot u of another point p, which moves along the path with that. Body axes.
+// Shared by the formulations. Its position, velocity and gradients are those of the material point;
+// what follows from the change of u is in the rows that hold p (constraints/on_curve.cpp).
 #include <cassert>
 
 #include "floatframe/body/flexible_body.hpp"

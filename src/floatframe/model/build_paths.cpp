@@ -77,6 +77,12 @@ bool ElementBuild::slide(const MatX& points) {
   }
   std::vector<int> on_path;
   const std::vector<NodeOnPath> found = nodes_on_path(nodes, p);
+  if (found.size() < 2) {
+    builder_.errors.add(ErrorCode::geometry, description().origin.of("points"),
+                        path() + ".points: found one node of body '" + body.name +
+                            "' on the path, expected at least two");
+    return false;
+  }
   Mat3X places(3, std::ssize(found));
   for (std::size_t k = 0; k < found.size(); ++k) {
     on_path.push_back(found[k].node);

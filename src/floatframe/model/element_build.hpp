@@ -20,9 +20,9 @@ class ElementBuild : public ElementView {
   /// Its next two ports: the markers of a joint with the coordinate `component`; nullptr if the
   /// joint has an error. The unit of its results is that of the first one.
   const Joint* connect_coordinate(const std::string& joint, int component = 0);
-  /// Its first port, of a body that bends, slides along the nodes on the lines between these points,
-  /// at the foot of its second one; false after an error. `points`: n x 3 from the first port, along
-  /// the axes of the world as drawn.
+  /// Its first port, of a body that bends, slides along the nodes on the lines between these
+  /// points, at the foot of its second one; false after an error. `points`: n x 3 from the first
+  /// port, along the axes of the world as drawn.
   bool slide(const MatX& points);
   /// As drawn, from the place of a port that slides; else null.
   std::shared_ptr<const SpaceCurve> path_of(std::size_t port) const;

@@ -14,8 +14,8 @@ struct MarkerState {
   Vec3 v, w;                ///< velocity of the point [m/s], angular velocity [rad/s]
   Vec3 a_bias, alpha_bias;  ///< acceleration and angular acceleration when all coordinate
                             ///< accelerations are zero
-  /// Of a marker that slides along nodes of its body (model/slide_path.hpp): where its path is, body
-  /// axes; else null.
+  /// Of a marker that slides along nodes of its body (model/slide_path.hpp): where its path is,
+  /// body axes; else null.
   const CurveFoot* foot = nullptr;
 };
 

@@ -64,7 +64,8 @@ class ModelHash {
     all(pieces, bumps);
   }
   void add(const Marker& m) {
-    const auto& [body, node, X_NM, rotates] = m;
+    const auto& [body, node, X_NM, rotates, path, guide] = m;
+    if (path) all(guide, path->points());
     all(body, node, X_NM, rotates);
   }
   void add(const Joint& j) {

@@ -5,9 +5,9 @@
 // with the splines N_k that are 1 at node k and 0 at the others. Where N_k is linear in u beyond
 // the ends, so is c. The shapes of the material point at u are the same sum of those of the nodes:
 //   X(u) = sum_k N_k(u) X_k                                                                    (2)
-// so that a load on it acts on the nodes with the weights N_k, and does the work that the deflection
-// of the path says. c has a continuous curvature; of the bent lines of beams the error falls with
-// the fourth power of the distance of the nodes.
+// so that a load on it acts on the nodes with the weights N_k, and does the work that the
+// deflection of the path says. c has a continuous curvature; of the bent lines of beams the error
+// falls with the fourth power of the distance of the nodes.
 #include <vector>
 
 #include "floatframe/model/space_curve.hpp"

@@ -101,9 +101,9 @@ SparseMatrix eigen_mass(const FeModel& model, const ReductionOptions& options) {
   return M;
 }
 
-/// Static modes, then normal modes.
+/// Static modes, then normal modes and residual shapes.
 template <class Fixed>
-ModeSet mode_set(const Fixed& fixed, const ReductionOptions& options,
+ModeSet mode_set(const Fixed& fixed, const ReductionOptions& options, const SparseMatrix& K,
                  const std::vector<int>& loaded, std::vector<std::string> names) {
   std::optional<int> number;
   if (options.normal_modes != 0 || !(options.max_frequency > 0.0)) number = options.normal_modes;
@@ -116,7 +116,7 @@ ModeSet mode_set(const Fixed& fixed, const ReductionOptions& options,
   if (!number && whole > found) normal = fixed.normal_modes(whole);
   ModeSet set = craig_bampton_set(fixed, normal, std::move(names));
   if (number) set.equal_left_out = whole - found;
-  append_residual_shapes(fixed, normal, loaded, set);
+  append_residual_shapes(fixed, K, normal, loaded, set);
   return set;
 }
 
@@ -130,10 +130,10 @@ ModeSet held_modes(const FeModel& model, const ReductionOptions& options, const 
   };
   try {
     if (const auto chains = BarChains::make(model, K, M, interface_dofs, zero, label))
-      return mode_set(*chains, options, loaded, std::move(names));
+      return mode_set(*chains, options, K, loaded, std::move(names));
     std::optional<FixedInterface> fixed;
     with_digits_hint(model, [&] { fixed.emplace(K, M, interface_dofs, zero, label); });
-    return mode_set(*fixed, options, loaded, std::move(names));
+    return mode_set(*fixed, options, K, loaded, std::move(names));
   } catch (const EigenIterationError& error) {
     if (options.section_inertia || options.mass_model == MassModel::isoparametric) throw;
     throw InputError(
@@ -141,6 +141,17 @@ ModeSet held_modes(const FeModel& model, const ReductionOptions& options, const 
         std::string(error.what()) +
             ", or section_inertia: true, which gives turns of bars about their axes inertia");
   }
+}
+
+/// Of forces on a path: where nothing moves they need no shape, and interfaces have theirs.
+std::vector<int> loaded_dofs(const ReductionOptions& options, const std::vector<Role>& roles,
+                             int d) {
+  std::vector<int> loaded;
+  for (const NodeDofs& c : options.path)
+    for (int axis = 0; axis < d; ++axis)
+      if (const int i = c.index * d + axis; ((c.mask >> axis) & 1u) && roles[i] == Role::inner)
+        loaded.push_back(i);
+  return loaded;
 }
 
 }  // namespace
@@ -213,12 +224,7 @@ ModeSet craig_bampton_modes(const FeModel& model, const ReductionOptions& option
     const Role role = roles[i];
     if (role == Role::clamped || role == Role::inactive) zero.push_back(i);
   }
-  // Forces where nothing moves need no shape, those on interfaces have theirs.
-  std::vector<int> loaded;
-  for (const NodeDofs& c : options.path)
-    for (int axis = 0; axis < d; ++axis)
-      if (const int i = c.index * d + axis; ((c.mask >> axis) & 1u) && roles[i] == Role::inner)
-        loaded.push_back(i);
+  const std::vector<int> loaded = loaded_dofs(options, roles, d);
   ModeSet set = held_modes(model, options, K, eigen_mass(model, options), interface_dofs, zero,
                            loaded, std::move(names));
   if (d == 6)

@@ -1,5 +1,6 @@
 #pragma once
 // Modes by any method, and the body built from them: the common path of bars and parts.
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -57,40 +58,44 @@ ModeSet craig_bampton_set(const Fixed& fixed, const Eigenmodes& normal,
   return set;
 }
 
-/// Appends the residual shapes of unit forces on these rows, which the modes of the set do not have:
+/// Appends the residual shapes of unit forces on these rows of K, which the modes of the set lack:
 ///   R = K_ii^-1 F - Phi w^-2 Phi^T F,  G = F^T R = V diag(g) V^T,  shapes R V
 /// orthogonal to all others in the stiffness, and among themselves; each has the largest component
-/// 1. Those that add less than 1e-9 of the deflection are left out. After them a force on any of
+/// 1. Those that add less than 1e-8 of the deflection are left out. After them a force on any of
 /// these rows deflects the structure as without a reduction.
 template <class Fixed>
-void append_residual_shapes(const Fixed& fixed, const Eigenmodes& normal,
-                            const std::vector<int>& loaded, ModeSet& set) {
+void append_residual_shapes(const Fixed& fixed, const Eigen::SparseMatrix<double>& K,
+                            const Eigenmodes& normal, const std::vector<int>& loaded,
+                            ModeSet& set) {
   const auto n = static_cast<Eigen::Index>(loaded.size());
   if (n == 0) return;
-  MatX F = MatX::Zero(set.X.rows(), n);
-  for (Eigen::Index k = 0; k < n; ++k) F(loaded[k], k) = 1.0;
+  MatX F = MatX::Zero(K.rows(), n);
+  for (Eigen::Index k = 0; k < n; ++k) F(loaded[static_cast<std::size_t>(k)], k) = 1.0;
   MatX R = fixed.inner_response(F);
   const double whole = F.cwiseProduct(R).colwise().sum().maxCoeff();
-  R -= normal.shapes * normal.omega.cwiseAbs2().cwiseInverse().asDiagonal() *
-       (normal.shapes.transpose() * F);
+  const MatX share =
+      normal.omega.cwiseAbs2().cwiseInverse().asDiagonal() * MatX(normal.shapes.transpose() * F);
+  R -= normal.shapes * share;
   const MatX G = F.transpose() * R;
   const SymmetricEigen eig = symmetric_eigen(MatX(0.5 * (G + G.transpose())));
-  std::vector<Eigen::Index> kept;
-  for (Eigen::Index k = n; k-- > 0;)
-    if (eig.values[k] > 1e-9 * whole) kept.push_back(k);
-  const Eigen::Index before = set.X.cols(), more = std::ssize(kept);
-  set.X.conservativeResize(Eigen::NoChange, before + more);
-  MatX K = MatX::Zero(before + more, before + more);
-  K.topLeftCorner(before, before) = set.K;
+  Eigen::Index more = 0;
+  while (more < n && eig.values[n - 1 - more] > 1e-8 * whole) ++more;
+  MatX shapes = R * eig.vectors.rightCols(more).rowwise().reverse();
   for (Eigen::Index k = 0; k < more; ++k) {
-    const VecX shape = R * eig.vectors.col(kept[k]);
     Eigen::Index largest = 0;
-    shape.cwiseAbs().maxCoeff(&largest);
-    set.X.col(before + k) = shape / shape[largest];
-    K(before + k, before + k) = eig.values[kept[k]] / (shape[largest] * shape[largest]);
+    shapes.col(k).cwiseAbs().maxCoeff(&largest);
+    shapes.col(k) /= double(shapes(largest, k));
     set.names.push_back("residual " + std::to_string(k + 1));
   }
-  set.K = std::move(K);
+  const Eigen::Index before = set.X.cols();
+  set.X.conservativeResize(Eigen::NoChange, before + more);
+  set.X.rightCols(more) = shapes;
+  // Of the shapes themselves, whose differences of flexibilities have lost digits.
+  const MatX own = shapes.transpose() * MatX(K * shapes);
+  set.K.conservativeResize(before + more, before + more);
+  set.K.rightCols(more).setZero();
+  set.K.bottomRows(more).setZero();
+  set.K.bottomRightCorner(more, more) = 0.5 * (own + own.transpose());
 }
 
 /// The body from modes: everything except its nodes, its damping and the data of the projection

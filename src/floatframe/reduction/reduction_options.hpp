@@ -31,8 +31,8 @@ struct AnalyticShapes {
 struct ReductionOptions {
   std::vector<NodeDofs> clamped;     ///< the body reference: dofs that all modes leave at zero
   std::vector<NodeDofs> interfaces;  ///< one static mode per dof, in this order, low bits first
-  /// Residual shapes of unit forces on all nodes of bars: `node` is the name of a bar, or in `reduce`
-  /// of an FeModel `index` that of a node.
+  /// Residual shapes of unit forces on all nodes of bars: `node` is the name of a bar, in `reduce`
+  /// of an FeModel `index` a node.
   std::vector<NodeDofs> path = {};
   int normal_modes = 0;  ///< fixed-interface normal modes by number
   /// If positive: all below this [Hz]; with normal_modes at most so many.

@@ -98,26 +98,35 @@ bool slides_along(const Body& body, const Marker& marker, int slides) {
   });
 }
 
-/// Joints that slide along a flexible body, at one of its nodes.
+/// Whether what slides at this marker goes along a flexible body, from one of its nodes.
+bool goes_along(const Model& model, const Marker& marker, int slides) {
+  return marker.body >= 0 && marker.node >= 0 && marker.rotates &&
+         slides_along(model.bodies[marker.body], marker, slides);
+}
+
+/// Joints and lines that slide along a flexible body, at one of its nodes.
 void report_rigid_tangents(const Model& model, StartReport& report) {
+  const auto note = [&](const std::string& what, const Marker& marker) {
+    report.notes.push_back(fmt::format(
+        "{} slides along the straight tangent of body '{}' at one of its nodes, not along the bent "
+        "body: away from there it moves as that node does; a constraint of type 'slide_along' "
+        "follows the bent body",
+        what, model.bodies[marker.body].name));
+  };
   for (const Joint& j : model.joints) {
     int slides = 0;
     for (const JointCoordinate& c : joint_kind(j.type).coordinates.all())
       slides += c.unit == JointUnit::m;
     if (slides == 0 || slides > 2) continue;
     for (const int frame : {j.frame_F, j.frame_M}) {
-      const Marker& marker = model.markers[frame];
-      if (marker.body < 0 || marker.node < 0 || !marker.rotates) continue;
-      const Body& body = model.bodies[marker.body];
-      if (!slides_along(body, marker, slides)) continue;
-      report.notes.push_back(fmt::format(
-          "joint '{}' slides along the straight tangent of body '{}' at one of its nodes, not "
-          "along the bent body: away from there it moves as that node does; a constraint "
-          "'slide_along' follows the bent body",
-          j.name, body.name));
+      if (!goes_along(model, model.markers[frame], slides)) continue;
+      note("joint '" + j.name + "'", model.markers[frame]);
       break;
     }
   }
+  for (const Element& e : model.elements)
+    if (e.type == ElementType::in_line && goes_along(model, model.markers[e.markers[0]], 1))
+      note("constraint '" + e.name + "'", model.markers[e.markers[0]]);
 }
 
 }  // namespace

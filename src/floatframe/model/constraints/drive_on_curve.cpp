@@ -1,5 +1,5 @@
-// Prescribed travel along a curve, beside `on_curve`: the parameter u of the foot of b is f(t). With
-// p, e and the curve as there, and d = c'.c' - e.c'':
+// Prescribed travel along a curve, beside `on_curve`: the parameter u of the foot of b is f(t).
+// With p, e and the curve as there, and d = c'.c' - e.c'':
 //   phi        u - f(t) = 0                                                     1 row
 //   gradient   that along an axis R_a u_p that rotates with a (axis_row.hpp), u_p = c' / d
 //   quad       of that axis, and pdot.H pdot, H = du_p/dp

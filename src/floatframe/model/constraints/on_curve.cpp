@@ -10,9 +10,9 @@
 // terms of e. So the parameter u is eliminated, and is no state: where a curve comes close to
 // itself the nearer branch holds.
 //
-// If a slides along nodes of its body (slide_path.hpp), its point is c(u) and the curve deforms with
-// the modes. e and pdot are then those from c, as the material point moves, and with the rates c*'
-// and n_i* of the tangent and of the normals at this u (CurveFoot) there are besides
+// If a slides along nodes of its body (slide_path.hpp), its point is c(u) and the curve deforms
+// with the modes. e and pdot are then those from c, as the material point moves, and with the rates
+// c*' and n_i* of the tangent and of the normals at this u (CurveFoot) there are besides
 //   quad       -2 n_i.c*' udot + 2 n_i*.(pdot - c' udot)                                     (1)
 // and terms of e: exact where the point is on the curve. The first is the Coriolis force of a load
 // that moves along a line whose slope changes; its centripetal force is in H_i.
