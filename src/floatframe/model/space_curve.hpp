@@ -32,6 +32,8 @@ class SpaceCurve {
   /// Step time.
   Value at(double u) const noexcept;
   Foot foot(const Vec3& p) const noexcept;
+  /// Points along it, from its first to its last one.
+  const std::vector<Vec3>& samples() const { return samples_; }
   /// The shortest |c'| of the samples, relative to the longest.
   double slowest() const;
 

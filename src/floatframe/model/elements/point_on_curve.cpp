@@ -4,6 +4,7 @@
 
 #include "floatframe/model/axis_constraint.hpp"
 #include "floatframe/model/space_curve.hpp"
+#include "floatframe/model/strokes.hpp"
 
 namespace floatframe {
 
@@ -138,6 +139,16 @@ ElementExample point_on_curve_example(std::size_t, ExampleNumbers& numbers) {
   return x;
 }
 
+std::vector<Stroke> point_on_curve_strokes(const Model& model, const Element& element) {
+  const std::vector<Vec3>& samples = static_cast<const SpaceCurve*>(element.data.get())->samples();
+  const std::size_t last = samples.size() - 1, pieces = std::min<std::size_t>(last, 300);
+  std::vector<Vec3> points;
+  for (std::size_t k = 0; k <= pieces; ++k) points.push_back(samples[k * last / pieces]);
+  Strokes out(model, element);
+  out.add(element.markers[0], std::move(points));
+  return out.take();
+}
+
 }  // namespace
 
 constinit const ElementKind point_on_curve_element = {
@@ -151,6 +162,7 @@ constinit const ElementKind point_on_curve_element = {
     .rows = point_on_curve_rows,
     .mirror = point_on_curve_mirror,
     .picture = picture_of_constraint,
+    .strokes = point_on_curve_strokes,
     .regimes = constraint_regimes,
     .example = point_on_curve_example};
 
