@@ -34,6 +34,22 @@ python python/notebooks/make_page.py --ipynb out/notebooks
 Text, pictures and numbers below are theirs; `python python/notebooks/make_page.py` makes this page. Times are those of one
 machine.
 """
+TAIL = """## Mechanisms as model files
+
+One idea each, as a model file with a picture and numbers that a test compares with closed forms
+(`tests/cli/course_examples_test.py`):
+
+| example | idea |
+|---|---|
+| [`four_bar`](../examples/four_bar/README.md) | a loop closes by itself; directions that are held twice |
+| [`gear_train`](../examples/gear_train/README.md) | couplings, and forces of teeth on bearings |
+| [`cam`](../examples/cam/README.md) | lifts with exact derivatives, and lift-off |
+| [`robot_arm`](../examples/robot_arm/README.md) | flexible links with PID controllers |
+| [`scissor_lift`](../examples/scissor_lift/README.md) | several loops, and a cylinder |
+
+Mechanisms with closed forms to learn from are the [benchmarks](../examples/benchmarks/README.md): differential, screw jack, belt, friction, restitution,
+cycloid.
+"""
 
 
 def sources():
@@ -104,6 +120,7 @@ def main():
     if not options.ipynb and not options.check:
         if options.names:
             parser.error("the page is made of all notebooks")
+        page.append(TAIL)
         (DOCS / "course.md").write_text("\n".join(page), encoding="utf-8")
 
 

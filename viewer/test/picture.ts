@@ -1,4 +1,4 @@
-// A picture of the 3-D view of a report: npm run picture -- REPORT.html OUT.png [SECONDS [SCALE [MODE]]].
+// A picture of the 3-D view of a report: npm run picture -- REPORT.html OUT.png [SECONDS [SCALE [MODE]]]; OUT.webp is 900 pixels wide.
 
 import { writeFileSync } from 'node:fs';
 import { resolve } from 'node:path';
@@ -22,7 +22,20 @@ await page.evaluate(
   [time, scale, mode].map((text) => (text ? Number(text) : null)),
 );
 await page.waitForTimeout(2000);
-const url = await page.evaluate(() => window.floatframe!.screenshot());
+const url = await page.evaluate(async (small) => {
+  const whole = await window.floatframe!.screenshot();
+  if (!whole || !small) return whole;
+  const image = new Image();
+  image.src = whole;
+  await image.decode();
+  const canvas = document.createElement('canvas');
+  canvas.width = 900;
+  canvas.height = Math.round((900 * image.height) / image.width);
+  const context = canvas.getContext('2d')!;
+  context.imageSmoothingQuality = 'high';
+  context.drawImage(image, 0, 0, canvas.width, canvas.height);
+  return canvas.toDataURL('image/webp', 0.85);
+}, out.endsWith('.webp'));
 await browser.close();
 if (!url) {
   console.error(`${report} has no 3-D view here: ${errors.join('; ')}`);

@@ -39,6 +39,8 @@ class CurveContact {
   Point at(const Mat3& R, const Vec3& d) const noexcept;
   /// a is the second marker, b the first one.
   bool swapped() const noexcept { return swapped_; }
+  /// That of the first or second marker.
+  const SpaceCurve& curve(bool second) const noexcept { return second == swapped_ ? a_ : b_; }
 
  private:
   struct Start {

@@ -151,6 +151,7 @@ struct ElementKind {
   /// The branch on which an equilibrium is looked for first; `free_branch`: on any.
   std::int64_t resting_branch = free_branch;
   Picture (*picture)(const Element& element) = nullptr;
+  std::vector<Stroke> (*strokes)(const Model& model, const Element& element) = nullptr;
   /// What is odd about its start, for notes of statics and checks.
   void (*note)(const Element& element, const SystemMotion& start,
                std::vector<std::string>& notes) = nullptr;

@@ -151,6 +151,11 @@ Picture picture_of(const Element& element) {
   return picture ? picture(element) : Picture();
 }
 
+std::vector<Stroke> strokes_of(const Model& model, const Element& element) {
+  const auto strokes = element_kind(element.type).strokes;
+  return strokes ? strokes(model, element) : std::vector<Stroke>();
+}
+
 bool is_wheel_of(const Model& model, const Element& element, int body) {
   const Picture picture = picture_of(element);
   return picture.symbol == Picture::Symbol::wheel && model.markers[picture.a].body == body;

@@ -59,6 +59,13 @@ struct Picture {
 };
 const char* symbol_name(Picture::Symbol symbol) noexcept;
 Picture picture_of(const Element& element);
+/// A line that is drawn on a body: a pitch circle, a strand of a belt, a guide.
+struct Stroke {
+  int marker = -1;           ///< what it is fixed to
+  std::vector<Vec3> points;  ///< in the axes of the marker, from its point [m]; joined by straights
+};
+/// The lines of an element, in the design configuration. Load time.
+std::vector<Stroke> strokes_of(const Model& model, const Element& element);
 /// It is drawn as a wheel on this body.
 bool is_wheel_of(const Model& model, const Element& element, int body);
 

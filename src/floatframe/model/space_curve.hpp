@@ -74,6 +74,8 @@ class SpaceCurve {
   Foot foot(const Vec3& p) const noexcept;
   /// Of the samples.
   const std::vector<double>& parameters() const noexcept { return u_; }
+  /// Points along it, from its first to its last one.
+  const std::vector<Vec3>& samples() const { return samples_; }
   /// The shortest |c'| of the samples, relative to the longest.
   double slowest() const;
   /// The direction a.

@@ -60,6 +60,7 @@ class SceneWriter {
     scene["joints"] = std::move(joints_);
     scene["forces"] = std::move(forces_);
     scene["rods"] = std::move(rods_);
+    scene["strokes"] = std::move(strokes_);
     scene["roads"] = roads();
     scene["gravity"] = triple(model_.gravity);
     return scene;
@@ -160,9 +161,20 @@ class SceneWriter {
       const Picture bar = picture_of(e);
       if (bar.symbol == Picture::Symbol::bar)
         rods_.push_back({{"name", e.name}, {"a", point(bar.a)}, {"b", point(bar.b)}});
-      else if (e.exerts())
+      else if (e.exerts() || e.links())
         forces_.push_back(force(k));
+      for (const Stroke& s : strokes_of(model_, e)) strokes_.push_back(stroke(e, s));
     }
+  }
+
+  /// Points in the axes of the body, from the point it is fixed to.
+  Json stroke(const Element& e, const Stroke& s) {
+    const Mat3& R = model_.markers[s.marker].X_NM.R;
+    std::vector<float> points;
+    for (const Vec3& p : s.points)
+      for (const double x : Vec3(R * p)) points.push_back(static_cast<float>(x));
+    Json view = buffer_.add(std::span<const float>(points), {s.points.size(), 3});
+    return {{"name", e.name}, {"a", point(s.marker)}, {"points", std::move(view)}};
   }
 
   Json force(std::size_t index) {
@@ -343,7 +355,7 @@ class SceneWriter {
   std::set<std::pair<int, int>> held_;     ///< (body, node) pairs that have a point
   std::vector<std::pair<const FlexibleBody*, Shape>> shapes_;
   Json points_ = Json::array(), joints_ = Json::array(), forces_ = Json::array(),
-       rods_ = Json::array();
+       rods_ = Json::array(), strokes_ = Json::array();
 };
 
 }  // namespace

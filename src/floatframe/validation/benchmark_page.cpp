@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "floatframe/description/rules.hpp"
+#include "floatframe/model/element_outputs.hpp"
 #include "floatframe/page/html_text.hpp"
 #include "floatframe/page/page_curves.hpp"
 #include "floatframe/page/plot_ticks.hpp"
@@ -36,7 +37,7 @@ figure { margin: 0; } svg text { font-size: 12px; fill: #59636e; } .grid { strok
 .mesh { stroke: #0072b2; stroke-width: .4; fill: none; } .before { opacity: .3; }
 .joint { fill: #fff; stroke: #1c2126; stroke-width: 1.4; }
 .force { stroke: #008a64; stroke-width: 1.6; stroke-dasharray: 3 3; }
-.rod { stroke: #1c2126; stroke-width: 1.6; }
+.rod { stroke: #1c2126; stroke-width: 1.6; } .guide { fill: none; stroke: #4f9a7f; stroke-width: 1.2; }
 </style></head><body>
 )html";
 
@@ -91,9 +92,12 @@ class Pose {
         mine.push_back(place(static_cast<int>(b), data.invariants.m_u / data.invariants.m));
       bodies_.push_back(std::move(mine));
     }
+    for (const Element& e : model.elements)
+      for (const Stroke& s : strokes_of(model, e)) strokes_.push_back(placed(s));
   }
 
   void add_points(std::vector<Vec3>& out) const {
+    for (const Line& s : strokes_) out.insert(out.end(), s.begin(), s.end());
     out.insert(out.end(), points_.begin(), points_.end());
     for (const auto& body : bodies_) out.insert(out.end(), body.begin(), body.end());
   }
@@ -101,6 +105,7 @@ class Pose {
   std::string svg(const View& view) const {
     std::string out;
     for (std::size_t b = 0; b < bodies_.size(); ++b) out += mesh(b, view) + outline(b, view);
+    for (const Line& s : strokes_) out += path("guide", s, view);
     for (const Json& f : scene_["forces"]) out += line("force", f, view);
     for (const Json& r : scene_["rods"]) out += line("rod", r, view);
     for (const Json& j : scene_["joints"])
@@ -112,6 +117,24 @@ class Pose {
   }
 
  private:
+  using Line = std::vector<Vec3>;
+
+  Line placed(const Stroke& s) const {
+    const Marker& m = model_.markers[s.marker];
+    Vec3 at = m.X_NM.p;
+    if (m.body >= 0 && m.node >= 0) at += model_.bodies[m.body].data->nodes[m.node].p;
+    Line out;
+    for (const Vec3& p : s.points) out.push_back(place(m.body, at + m.X_NM.R * p));
+    return out;
+  }
+
+  static std::string path(const char* kind, const Line& points, const View& view) {
+    std::string d;
+    for (const Vec3& p : points)
+      d += fmt::format("{}{:.1f} {:.1f}", d.empty() ? "M" : "L", view(p)[0], view(p)[1]);
+    return fmt::format("<path class=\"{}\" d=\"{}\"/>\n", kind, d);
+  }
+
   static Vec3 vector(const Json& p) {
     return Vec3(p[0].get<double>(), p[1].get<double>(), p[2].get<double>());
   }
@@ -135,7 +158,10 @@ class Pose {
     std::vector<Vec2> at;
     Vec2 centre = Vec2::Zero();
     for (const Vec3& p : bodies_[body]) centre += at.emplace_back(view(p));
-    if (at.size() < 2) return "";
+    if (at.empty()) return "";
+    if (at.size() == 1)
+      return fmt::format("<circle class=\"body\" r=\"6\" cx=\"{:.1f}\" cy=\"{:.1f}\"/>\n", at[0][0],
+                         at[0][1]);
     centre /= static_cast<double>(at.size());
     std::ranges::sort(
         at, {}, [&](const Vec2& p) { return std::atan2(p[1] - centre[1], p[0] - centre[0]); });
@@ -163,6 +189,7 @@ class Pose {
   Json scene_;
   std::vector<Vec3> points_;
   std::vector<std::vector<Vec3>> bodies_;
+  std::vector<Line> strokes_;
 };
 
 std::string picture(const Model& model, const BenchmarkResult* run) {

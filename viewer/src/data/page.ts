@@ -189,6 +189,8 @@ export interface SceneJson {
   joints?: JointJson[] | null;
   forces?: ForceJson[] | null;
   rods?: { name: string; a: number; b: number }[] | null;
+  /** Lines on the body of a point: f32 [n, 3] from the point, in its frame. */
+  strokes?: { name: string; a: number; points: View }[] | null;
   roads?: { name: string; profile: View; width: [number, number] }[] | null;
   gravity?: Triple | null;
   vibrations?: VibrationsJson | null;

@@ -89,6 +89,14 @@ export interface RoadData {
   width: [number, number];
 }
 
+/** A line that goes with the body of a point: what a coupling or a constraint holds. */
+export interface StrokeData {
+  name: string;
+  a: number;
+  /** x, y, z of each place, from the point. */
+  points: Float32Array;
+}
+
 export interface SceneData {
   kind: PageKind;
   time: Float64Array;
@@ -100,6 +108,7 @@ export interface SceneData {
   joints: JointJson[];
   forces: ForceJson[];
   rods: { name: string; a: number; b: number }[];
+  strokes: StrokeData[];
   roads: RoadData[];
   origin: Triple;
   up: Triple;
@@ -349,6 +358,16 @@ export function readScene(json: SceneJson, kind: PageKind, buffer: PageBuffer, r
       report(sentenceOf(error));
     }
   }
+  const strokes: StrokeData[] = [];
+  for (const stroke of json.strokes ?? []) {
+    try {
+      const line = buffer.read(stroke.points, `Line of "${stroke.name}"`, ['f32'], [null, 3]) as Float32Array;
+      if (!line.every(Number.isFinite)) throw new PageError(`Line of "${stroke.name}": it is no line in space; it is left out.`);
+      if (placed(stroke.a) && line.length >= 6) strokes.push({ name: String(stroke.name), a: stroke.a, points: line });
+    } catch (error) {
+      report(sentenceOf(error));
+    }
+  }
   let vibrations: VibrationData[] = [];
   if (json.vibrations) {
     try {
@@ -368,6 +387,7 @@ export function readScene(json: SceneJson, kind: PageKind, buffer: PageBuffer, r
     joints: (json.joints ?? []).filter((joint) => placed(joint.a) && placed(joint.b) && joint.turns + joint.slides < 6),
     forces: (json.forces ?? []).filter((force) => (placed(force.a) || force.a === -1) && (placed(force.b) || force.b === -1)),
     rods: (json.rods ?? []).filter((rod) => placed(rod.a) && placed(rod.b)),
+    strokes,
     roads,
     origin: triple(json.origin, [0, 0, 0]),
     up: triple(json.up, [0, 0, 1]),

@@ -1,13 +1,13 @@
 // Joints, springs, dampers, tyres, rods and loads: placed from their points at each time.
 
-import { Group, Quaternion, Vector3, type Object3D } from 'three';
+import { Group, Mesh, Quaternion, Vector3, type Object3D } from 'three';
 import type { ForceJson, JointJson } from '../data/page';
-import type { SceneData } from '../data/scene_data';
+import type { SceneData, StrokeData } from '../data/scene_data';
 import { valueAt } from '../data/series';
 import type { Motion } from '../motion/motion';
 import { rotate } from '../motion/rotation';
-import { CUT_COLOUR, DAMPER_COLOUR, FORCE_COLOUR, JOINT_COLOUR, ROD_COLOUR, SPRING_COLOUR } from './palette';
-import { Arrow, bar, buildJoint, buildTyre, Coil, placeBar, plain, turnTo } from './symbols';
+import { CUT_COLOUR, DAMPER_COLOUR, FORCE_COLOUR, GUIDE_COLOUR, JOINT_COLOUR, ROD_COLOUR, SPRING_COLOUR } from './palette';
+import { Arrow, bar, buildJoint, buildTube, buildTyre, Coil, placeBar, plain, turnTo } from './symbols';
 
 export interface History {
   time: ArrayLike<number>;
@@ -37,7 +37,20 @@ export class Connections {
     for (const layer of Object.values(this.layers)) this.root.add(layer);
     for (const joint of scene.joints) this.addJoint(joint);
     for (const rod of scene.rods) this.addBar(rod.a, rod.b, 0.007 * modelSize, ROD_COLOUR, rod.name);
+    for (const stroke of scene.strokes) this.addStroke(stroke);
     for (const force of scene.forces) this.addForce(force, force.channel ? history(force.channel) : null);
+  }
+
+  /** What couplings and constraints hold: pitch circles, strands, guides. */
+  private addStroke(stroke: StrokeData): void {
+    const mesh = new Mesh(buildTube(stroke.points, 0.003 * this.size), plain(GUIDE_COLOUR));
+    mesh.name = stroke.name;
+    const body = this.scene.points[stroke.a].body;
+    this.own(mesh, 'joints', stroke.a);
+    this.updates.push((motion, scale) => {
+      mesh.position.set(...this.at(stroke.a, motion, scale));
+      if (body >= 0) mesh.quaternion.fromArray(motion.quaternion, 4 * body);
+    });
   }
 
   count(layer: Layer): number {

@@ -17,6 +17,7 @@ export const SPRING_COLOUR = '#d08a3c';
 export const DAMPER_COLOUR = '#77818c';
 export const ROD_COLOUR = '#8b949e';
 export const JOINT_COLOUR = '#3f7fc4';
+export const GUIDE_COLOUR = '#4f9a7f';
 export const CUT_COLOUR = '#c4563f';
 export const FORCE_COLOUR = '#d5453b';
 export const MARK_COLOUR = '#e8590c';

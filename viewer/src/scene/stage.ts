@@ -286,6 +286,15 @@ export class Stage {
         box.union(new Sphere(new Vector3(...this.motion.pointPosition(point, this.deformation)), force.radius).getBoundingBox(part));
       }
     }
+    if (this.connections.layers.joints.visible) {
+      for (const { a, points } of this.scene.strokes) {
+        const { body } = this.scene.points[a];
+        if (body >= 0 && !this.bodies[body].group.visible) continue;
+        let reach = 0;
+        for (let i = 0; i < points.length; i += 3) reach = Math.max(reach, Math.hypot(points[i], points[i + 1], points[i + 2]));
+        box.union(new Sphere(new Vector3(...this.motion.pointPosition(this.scene.points[a], this.deformation)), reach).getBoundingBox(part));
+      }
+    }
     return box.applyMatrix4(this.root.matrixWorld);
   }
 

@@ -4,6 +4,7 @@ import {
   BoxGeometry,
   BufferAttribute,
   BufferGeometry,
+  CatmullRomCurve3,
   ConeGeometry,
   CylinderGeometry,
   Group,
@@ -14,6 +15,7 @@ import {
   Quaternion,
   SphereGeometry,
   TorusGeometry,
+  TubeGeometry,
   Vector2,
   Vector3,
   type IUniform,
@@ -216,6 +218,18 @@ export class Arrow {
     this.shaft.position.z = (size - head) / 2;
     this.heads.forEach((mesh, k) => (mesh.position.z = size - head / 2 - k * 0.8 * head));
   }
+}
+
+/** A tube along a line of straights: x, y, z of each place. */
+export function buildTube(points: ArrayLike<number>, radius: number): BufferGeometry {
+  const places: Vector3[] = [];
+  for (let i = 0; i + 2 < points.length; i += 3) {
+    const p = new Vector3(points[i], points[i + 1], points[i + 2]);
+    if (places.length === 0 || p.distanceToSquared(places[places.length - 1]) > 1e-16) places.push(p);
+  }
+  if (places.length < 2) return new BufferGeometry();
+  // No tension: the curve keeps to the straights.
+  return new TubeGeometry(new CatmullRomCurve3(places, false, 'catmullrom', 0), Math.max(2 * places.length, 16), radius, 6);
 }
 
 /** Three bars for the axes of a frame. */

@@ -3,9 +3,12 @@
 //   q_1 - s (r_2 / r_1) q_2 = 0,  crossed q_1 + s (r_2 / r_1) q_2 = 0:                          (1)
 // one row (coupled_coordinates.hpp), whose force is the torque on the driver. With a stiffness k it
 // is a spring k r_1^2 of the same sum (coupled_spring.hpp).
+#include <cmath>
+
 #include "floatframe/model/coupled_coordinates.hpp"
 #include "floatframe/model/coupled_spring.hpp"
 #include "floatframe/model/port_measures.hpp"
+#include "floatframe/model/strokes.hpp"
 
 namespace floatframe {
 
@@ -91,6 +94,26 @@ ElementExample belt_example(std::size_t regime, ExampleNumbers& numbers) {
   return x;
 }
 
+/// Pulleys, and strands on the housing that touch them: along u from both centres, with
+/// u.e = (r_1 - r_2) / a of the distance a along e, crossed (r_1 + r_2) / a.
+std::vector<Stroke> belt_strokes(const Model& model, const Element& element) {
+  Strokes out(model, element);
+  const BeltDrive& keys = std::get<BeltDrive>(*element.keys);
+  const double r_1 = keys.radii(0), r_2 = keys.crossed ? -keys.radii(1) : keys.radii(1);
+  out.wheel(out.child(0), out.axis(0), r_1);
+  out.wheel(out.child(1), out.axis(1), std::abs(r_2));
+  const Vec3 between = out.across(0, 1);
+  const double cosine = (r_1 - r_2) / between.norm();
+  if (!(std::abs(cosine) < 1.0)) return out.take();
+  const Vec3 e = between.normalized(), n = out.world_axis(0).cross(e);
+  const int housing = out.frame(0);
+  for (const double side : {1.0, -1.0}) {
+    const Vec3 u = cosine * e + side * std::sqrt(1.0 - cosine * cosine) * n;
+    out.line(housing, out.in(housing, r_1 * u), out.in(housing, between + r_2 * u));
+  }
+  return out.take();
+}
+
 }  // namespace
 
 constinit const ElementKind belt_element = {
@@ -108,6 +131,7 @@ constinit const ElementKind belt_element = {
     .gives_way = [](const ElementKeys& k) { return std::get<BeltDrive>(k).stiffness.has_value(); },
     .dual = belt_law<Dual>,
     .picture = picture_of_coordinate,
+    .strokes = belt_strokes,
     .regimes = std::span(coupled_spring_regimes).first(2),
     .example = belt_example};
 

@@ -5,6 +5,7 @@
 // generatrix u between e_1 and e_2, qdot_1 e_1 x u = qdot_2 e_2 x u. It exerts torques about the
 // axes, also for worms and hypoid gears, and no force of teeth.
 #include "floatframe/model/coupled_coordinates.hpp"
+#include "floatframe/model/strokes.hpp"
 
 namespace floatframe {
 
@@ -50,6 +51,15 @@ ElementExample bevel_gear_example(std::size_t, ExampleNumbers& numbers) {
                          numbers);
 }
 
+/// Wheels in the ratio: of what the axes cross only their joints say.
+std::vector<Stroke> bevel_gear_strokes(const Model& model, const Element& element) {
+  Strokes out(model, element);
+  const double ratio = std::abs(static_cast<const CoupledSum*>(element.data.get())->factors[1]);
+  const double r = 0.5 * out.size(out.child(0));
+  out.wheels(0, std::min(r, r / ratio), 1, std::min(r, r * ratio));
+  return out.take();
+}
+
 }  // namespace
 
 constinit const ElementKind bevel_gear_element = {
@@ -63,6 +73,7 @@ constinit const ElementKind bevel_gear_element = {
     .validate = bevel_gear_validate,
     .build = bevel_gear_build,
     .rows = coupled_rows,
+    .strokes = bevel_gear_strokes,
     .regimes = holding_regimes,
     .example = bevel_gear_example};
 

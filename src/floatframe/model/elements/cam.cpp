@@ -7,12 +7,15 @@
 // A contact that only pushes is lost where the force changes its sign: the row holds on.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "floatframe/math/so3.hpp"
 #include "floatframe/model/cam_profile.hpp"
 #include "floatframe/model/coupled_coordinates.hpp"
 #include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/strokes.hpp"
 
 namespace floatframe {
 
@@ -155,6 +158,36 @@ ElementExample cam_example(std::size_t, ExampleNumbers& numbers) {
   return coupled_example(keys, 2, numbers);
 }
 
+/// What the follower touches, as drawn: of a cam that turns by q the place at -q from it.
+std::vector<Stroke> cam_strokes(const Model& model, const Element& element) {
+  const CamProfile& profile = *static_cast<const CamProfile*>(element.data.get());
+  Strokes out(model, element);
+  const int cam = out.child(1);
+  const Vec3 z = out.axis(1), up = out.in(cam, out.world_axis(0));
+  const bool turns = element.coordinates[1].counted;
+  const double turn = 2.0 * std::numbers::pi, reach = turns ? 0.5 * turn : out.size(cam);
+  constexpr int count = 180;
+  std::vector<double> lifts;
+  for (int k = 0; k <= count; ++k) lifts.push_back(profile(reach * (1.0 - 2.0 * k / count)).f);
+  const auto [low, high] = std::ranges::minmax(lifts);
+  const Vec3 across = out.in(cam, out.across(1, 0));
+  const double distance = across.norm(), at_start = profile(0.0).f;
+  const double base = std::max(distance - at_start, 2.0 * (high - low) - low);
+  const Vec3 e = distance > 1e-9                      ? Vec3(across / distance)
+                 : up.cross(z).cross(z).norm() > 1e-6 ? Vec3((up - up.dot(z) * z).normalized())
+                                                      : Vec3(frame_with_z(z).col(0));
+  std::vector<Vec3> points;
+  for (int k = 0; k <= count; ++k) {
+    const double x = reach * (2.0 * k / count - 1.0), lift = lifts[k];
+    if (turns)
+      points.push_back((base + lift) * (std::cos(x) * e + std::sin(x) * z.cross(e)));
+    else
+      points.push_back(x * z + (lift - at_start) * up);
+  }
+  out.add(cam, std::move(points));
+  return out.take();
+}
+
 }  // namespace
 
 constinit const ElementKind cam_element = {
@@ -169,6 +202,7 @@ constinit const ElementKind cam_element = {
     .validate = cam_validate,
     .build = cam_build,
     .rows = cam_rows,
+    .strokes = cam_strokes,
     .regimes = holding_regimes,
     .example = cam_example};
 

@@ -11,6 +11,7 @@
 #include "floatframe/model/axis_constraint.hpp"
 #include "floatframe/model/curve_contact.hpp"
 #include "floatframe/model/curve_keys.hpp"
+#include "floatframe/model/strokes.hpp"
 
 namespace floatframe {
 
@@ -116,6 +117,14 @@ void curve_on_curve_mirror(ElementDescription& element, const Placement& x) {
   mirror_curve(keys.points_2, {&keys.x_2, &keys.y_2, &keys.z_2}, x);
 }
 
+std::vector<Stroke> curve_on_curve_strokes(const Model& model, const Element& element) {
+  const auto* contact = static_cast<const CurveContact*>(element.data.get());
+  Strokes out(model, element);
+  for (const bool second : {false, true})
+    out.curve(element.markers[second ? 1 : 0], contact->curve(second).samples());
+  return out.take();
+}
+
 ElementExample curve_on_curve_example(std::size_t, ExampleNumbers& numbers) {
   ElementExample x;
   CurveOnCurve keys;
@@ -140,6 +149,7 @@ constinit const ElementKind curve_on_curve_element = {
     .rows = curve_on_curve_rows,
     .mirror = curve_on_curve_mirror,
     .picture = picture_of_constraint,
+    .strokes = curve_on_curve_strokes,
     .regimes = constraint_regimes,
     .example = curve_on_curve_example};
 

@@ -3,6 +3,7 @@
 // with the senses of the axes: one row (coupled_coordinates.hpp). Both shafts feel the same torque,
 // the cage minus their sum.
 #include "floatframe/model/coupled_coordinates.hpp"
+#include "floatframe/model/strokes.hpp"
 
 namespace floatframe {
 
@@ -30,6 +31,15 @@ ElementExample differential_example(std::size_t, ExampleNumbers& numbers) {
   return coupled_example(DifferentialGear{{"a"}, {"b"}, {"c"}}, 3, numbers);
 }
 
+/// Bevel gears on both shafts, and the cage about them.
+std::vector<Stroke> differential_strokes(const Model& model, const Element& element) {
+  Strokes out(model, element);
+  const double r = 0.25 * out.size(out.child(2));
+  out.wheels(0, r, 1, r);
+  out.wheel(out.child(2), out.axis(2), 2.0 * r, 48.0);
+  return out.take();
+}
+
 }  // namespace
 
 constinit const ElementKind differential_element = {
@@ -43,6 +53,7 @@ constinit const ElementKind differential_element = {
     .validate = [](const ElementCheck& check) { validate_coordinates(check); },
     .build = differential_build,
     .rows = coupled_rows,
+    .strokes = differential_strokes,
     .regimes = holding_regimes,
     .example = differential_example};
 

@@ -30,6 +30,7 @@
 #include "floatframe/model/coupled_spring.hpp"
 #include "floatframe/model/loop_mobility.hpp"
 #include "floatframe/model/port_measures.hpp"
+#include "floatframe/model/strokes.hpp"
 
 namespace floatframe {
 
@@ -239,6 +240,19 @@ ElementExample gear_example(std::size_t regime, ExampleNumbers& numbers) {
   return x;
 }
 
+/// The pitch circles of (2), or of wheels on one axis two circles in the ratio.
+std::vector<Stroke> gear_strokes(const Model& model, const Element& element) {
+  const auto& teeth = *static_cast<const GearTeeth*>(element.data.get());
+  const double ratio = std::abs(teeth.sum.factors[1]);
+  const bool internal = std::get<Gear>(*element.keys).internal;
+  Strokes out(model, element);
+  const double distance = out.across(0, 1).norm();
+  double r_1 = distance / std::abs(internal ? 1.0 - ratio : 1.0 + ratio);
+  if (!(r_1 > 1e-9) || !std::isfinite(r_1)) r_1 = out.size(out.child(0)) / (1.0 + ratio);
+  out.wheels(0, r_1, 1, ratio * r_1);
+  return out.take();
+}
+
 }  // namespace
 
 constinit const ElementKind gear_element = {
@@ -258,6 +272,7 @@ constinit const ElementKind gear_element = {
     .dual = gear_law<Dual>,
     .side = gear_side,
     .picture = picture_of_coordinate,
+    .strokes = gear_strokes,
     .regimes = coupled_spring_regimes,
     .example = gear_example};
 

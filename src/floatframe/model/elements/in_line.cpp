@@ -1,6 +1,7 @@
 // In line: the point of `to` stays on the line through the point of `from` along an axis that turns
 // with the body of `from`: the two rows `in_line`, z of the first marker along the axis.
 #include "floatframe/model/axis_constraint.hpp"
+#include "floatframe/model/strokes.hpp"
 
 namespace floatframe {
 
@@ -26,6 +27,14 @@ ElementExample in_line_example(std::size_t, ExampleNumbers& numbers) {
   return constraint_example<InLine>(numbers);
 }
 
+std::vector<Stroke> in_line_strokes(const Model& model, const Element& element) {
+  Strokes out(model, element);
+  const int a = element.markers[0];
+  const Vec3 half = 2.0 * std::max(out.size(a), out.size(element.markers[1])) * Vec3::UnitZ();
+  out.line(a, -half, half);
+  return out.take();
+}
+
 }  // namespace
 
 constinit const ElementKind in_line_element = {
@@ -37,6 +46,7 @@ constinit const ElementKind in_line_element = {
     .build = in_line_build,
     .rows = in_line_rows,
     .picture = picture_of_constraint,
+    .strokes = in_line_strokes,
     .regimes = constraint_regimes,
     .example = in_line_example};
 

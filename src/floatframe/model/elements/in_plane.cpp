@@ -2,6 +2,7 @@
 // with the body of `from`: the row `in_plane`, z of the first marker along the normal. The force is
 // that along the normal on the body of `from`.
 #include "floatframe/model/axis_constraint.hpp"
+#include "floatframe/model/strokes.hpp"
 
 namespace floatframe {
 
@@ -27,6 +28,13 @@ ElementExample in_plane_example(std::size_t, ExampleNumbers& numbers) {
   return constraint_example<InPlane>(numbers);
 }
 
+std::vector<Stroke> in_plane_strokes(const Model& model, const Element& element) {
+  Strokes out(model, element);
+  const int a = element.markers[0];
+  out.square(a, Vec3::UnitZ(), std::max(out.size(a), out.size(element.markers[1])));
+  return out.take();
+}
+
 }  // namespace
 
 constinit const ElementKind in_plane_element = {
@@ -38,6 +46,7 @@ constinit const ElementKind in_plane_element = {
     .build = in_plane_build,
     .rows = in_plane_rows,
     .picture = picture_of_constraint,
+    .strokes = in_plane_strokes,
     .regimes = constraint_regimes,
     .example = in_plane_example};
 

@@ -4,7 +4,12 @@
 // divided by z_s: one row (coupled_coordinates.hpp) with the factors 1, z_r / z_s and
 // -(1 + z_r / z_s), and the senses of the axes. One of the three that is not given does not turn.
 // The torques on them are in the ratio of the factors; planets are without mass.
+#include <cmath>
+#include <numbers>
+
+#include "floatframe/math/so3.hpp"
 #include "floatframe/model/coupled_coordinates.hpp"
+#include "floatframe/model/strokes.hpp"
 
 namespace floatframe {
 
@@ -62,6 +67,30 @@ ElementExample planetary_example(std::size_t, ExampleNumbers& numbers) {
   return coupled_example(std::move(gear), 2, numbers);
 }
 
+/// Sun, ring, and three planets on the carrier; of what is fixed there is none.
+std::vector<Stroke> planetary_strokes(const Model& model, const Element& element) {
+  Strokes out(model, element);
+  const PlanetaryGear& keys = std::get<PlanetaryGear>(*element.keys);
+  double ring = 0.0;
+  for (std::size_t i = 0; i < element.coordinates.size(); ++i)
+    ring = std::max(ring, out.size(out.child(i)));
+  const double sun = ring * keys.teeth(0) / keys.teeth(1), planet = 0.5 * (ring - sun);
+  constexpr double per_ring = 72.0;  // teeth
+  std::size_t i = 0;
+  if (keys.sun) out.wheel(out.child(i), out.axis(i), sun, per_ring * sun / ring), ++i;
+  if (keys.ring) out.wheel(out.child(i), out.axis(i), ring, per_ring), ++i;
+  if (!keys.carrier) return out.take();
+  const Mat3 R = frame_with_z(out.axis(i));
+  for (int k = 0; k < 3; ++k) {
+    const double angle = 2.0 * std::numbers::pi * k / 3.0;
+    const Vec3 centre = R * Vec3(std::cos(angle), std::sin(angle), 0.0) * (sun + planet);
+    out.wheel(out.child(i), out.axis(i), planet, per_ring * planet / ring);
+    out.shift_last(centre);
+    out.line(out.child(i), Vec3::Zero(), centre);
+  }
+  return out.take();
+}
+
 }  // namespace
 
 constinit const ElementKind planetary_element = {
@@ -76,6 +105,7 @@ constinit const ElementKind planetary_element = {
     .validate = planetary_validate,
     .build = planetary_build,
     .rows = coupled_rows,
+    .strokes = planetary_strokes,
     .regimes = holding_regimes,
     .example = planetary_example};
 

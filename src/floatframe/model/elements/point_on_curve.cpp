@@ -2,6 +2,7 @@
 // `on_curve`. The curve is given from the point of `from` along the axes of the world as drawn.
 #include "floatframe/model/axis_constraint.hpp"
 #include "floatframe/model/curve_keys.hpp"
+#include "floatframe/model/strokes.hpp"
 
 namespace floatframe {
 
@@ -54,6 +55,12 @@ ElementExample point_on_curve_example(std::size_t, ExampleNumbers& numbers) {
   return x;
 }
 
+std::vector<Stroke> point_on_curve_strokes(const Model& model, const Element& element) {
+  Strokes out(model, element);
+  out.curve(element.markers[0], static_cast<const SpaceCurve*>(element.data.get())->samples());
+  return out.take();
+}
+
 }  // namespace
 
 constinit const ElementKind point_on_curve_element = {
@@ -67,6 +74,7 @@ constinit const ElementKind point_on_curve_element = {
     .rows = point_on_curve_rows,
     .mirror = point_on_curve_mirror,
     .picture = picture_of_constraint,
+    .strokes = point_on_curve_strokes,
     .regimes = constraint_regimes,
     .example = point_on_curve_example};
 

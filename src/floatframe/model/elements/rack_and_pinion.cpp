@@ -2,7 +2,11 @@
 // of the pinion,
 //   x - r q = 0,  reversed x + r q = 0:                                                        (1)
 // one row (coupled_coordinates.hpp), whose force is that of the teeth along the rack.
+#include <cmath>
+#include <numbers>
+
 #include "floatframe/model/coupled_coordinates.hpp"
+#include "floatframe/model/strokes.hpp"
 
 namespace floatframe {
 
@@ -39,6 +43,22 @@ ElementExample rack_and_pinion_example(std::size_t, ExampleNumbers& numbers) {
                          2, numbers);
 }
 
+/// The pitch circle and the rack that it rolls on: with x = r q the point of the pinion that goes
+/// along s is r s x z from its axis z.
+std::vector<Stroke> rack_and_pinion_strokes(const Model& model, const Element& element) {
+  Strokes out(model, element);
+  const std::vector<double>& factors = static_cast<const CoupledSum*>(element.data.get())->factors;
+  const double r = -factors[1] / factors[0];
+  const Vec3 along = out.world_axis(0), to_rack = r * along.cross(out.world_axis(1));
+  const Vec3 middle = out.place(1) + to_rack - out.place(0);
+  const int rack = out.child(0);
+  constexpr double teeth = 20.0;
+  out.wheel(out.child(1), out.axis(1), std::abs(r), teeth);
+  out.rack(rack, out.in(rack, middle - along.dot(middle) * along), out.axis(0),
+           out.in(rack, to_rack.normalized()), 2.0 * std::numbers::pi * std::abs(r) / teeth);
+  return out.take();
+}
+
 }  // namespace
 
 constinit const ElementKind rack_and_pinion_element = {
@@ -52,6 +72,7 @@ constinit const ElementKind rack_and_pinion_element = {
     .validate = [](const ElementCheck& check) { validate_coordinates(check); },
     .build = rack_and_pinion_build,
     .rows = coupled_rows,
+    .strokes = rack_and_pinion_strokes,
     .regimes = holding_regimes,
     .example = rack_and_pinion_example};
 

@@ -6,6 +6,7 @@
 
 #include "floatframe/model/coupled_coordinates.hpp"
 #include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/strokes.hpp"
 
 namespace floatframe {
 
@@ -76,6 +77,15 @@ ElementExample screw_example(std::size_t, ExampleNumbers& numbers) {
   return coupled_example(std::move(screw), 2, numbers);
 }
 
+/// A thread on what turns; its turns are as many as can be seen.
+std::vector<Stroke> screw_strokes(const Model& model, const Element& element) {
+  Strokes out(model, element);
+  const double size = out.size(out.child(1));
+  out.thread(out.child(1), out.axis(1), 0.15 * size, size,
+             std::get<ScrewDrive>(*element.keys).lead < 0.0);
+  return out.take();
+}
+
 }  // namespace
 
 constinit const ElementKind screw_element = {
@@ -89,6 +99,7 @@ constinit const ElementKind screw_element = {
     .validate = screw_validate,
     .build = screw_build,
     .rows = coupled_rows,
+    .strokes = screw_strokes,
     .regimes = holding_regimes,
     .example = screw_example};
 

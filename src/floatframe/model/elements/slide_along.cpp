@@ -5,6 +5,7 @@
 #include "floatframe/model/axis_constraint.hpp"
 #include "floatframe/model/curve_keys.hpp"
 #include "floatframe/model/slide_path.hpp"
+#include "floatframe/model/strokes.hpp"
 
 namespace floatframe {
 
@@ -60,6 +61,12 @@ void slide_along_mirror(ElementDescription& element, const Placement& x) {
   mirror_curve_points(std::get_if<SlideAlong>(&element.kind)->points, x);
 }
 
+std::vector<Stroke> slide_along_strokes(const Model& model, const Element& element) {
+  Strokes out(model, element);
+  out.curve(element.markers[0], static_cast<const SpaceCurve*>(element.data.get())->samples());
+  return out.take();
+}
+
 ElementExample slide_along_example(std::size_t, ExampleNumbers& numbers) {
   ElementExample x;
   SlideAlong keys;
@@ -83,6 +90,7 @@ constinit const ElementKind slide_along_element = {
     .rows = slide_along_rows,
     .mirror = slide_along_mirror,
     .picture = picture_of_constraint,
+    .strokes = slide_along_strokes,
     .regimes = constraint_regimes,
     .example = slide_along_example};
 
