@@ -24,7 +24,10 @@ ModelDescription held() {
   groove.a = place_on("ground", {0, 0, 0});
   groove.b = place_on("block", {0, 0, 1});
   groove.points = MatX{{0.0, 0.0, 0.0}, {1.0, 0.0, 1.0}, {2.0, 1.0, 1.0}};
-  SlideAlong path{groove.a, groove.b, groove.points};
+  SlideAlong path;
+  path.a = groove.a;
+  path.b = groove.b;
+  path.points = groove.points;
   d.constraints = {{"line", constraint_of(InLine(), Vec3::UnitX()), {}},
                    {"square", square, {}},
                    {"shafts", shafts, {}},
