@@ -32,7 +32,10 @@ ModelDescription held() {
   touch.range = MatX{{0.0, 2.0 * std::numbers::pi}};
   touch.closed = true;
   touch.points_2 = MatX{{-1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}};
-  SlideAlong path{groove.a, groove.b, groove.points};
+  SlideAlong path;
+  path.a = groove.a;
+  path.b = groove.b;
+  path.points = groove.points;
   d.constraints = {{"line", constraint_of(InLine(), Vec3::UnitX()), {}},
                    {"square", square, {}},
                    {"shafts", shafts, {}},

@@ -195,7 +195,7 @@ ReductionOptions with_nodes_of_path(ReductionOptions options, const FrameDescrip
       if (frame.bars[static_cast<std::size_t>(e.section)].name == d.node)
         for (int k = 0; k < 2; ++k) masks[e.nodes[k]] |= d.mask;
   options.path.clear();
-  for (const auto& [node, mask] : masks) options.path.push_back({"", mask, node});
+  for (const auto& [node, mask] : masks) options.path.push_back({"", mask, node, {}});
   return options;
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/sparse_factors.hpp"
