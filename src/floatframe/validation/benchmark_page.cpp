@@ -37,7 +37,8 @@ figure { margin: 0; } svg text { font-size: 12px; fill: #59636e; } .grid { strok
 .mesh { stroke: #0072b2; stroke-width: .4; fill: none; } .before { opacity: .3; }
 .joint { fill: #fff; stroke: #1c2126; stroke-width: 1.4; }
 .force { stroke: #008a64; stroke-width: 1.6; stroke-dasharray: 3 3; }
-.rod { stroke: #1c2126; stroke-width: 1.6; } .guide { fill: none; stroke: #4f9a7f; stroke-width: 1.2; }
+.rod { stroke: #1c2126; stroke-width: 1.6; }
+.guide { fill: none; stroke: #4f9a7f; stroke-width: 1.2; }
 </style></head><body>
 )html";
 

@@ -186,3 +186,19 @@ test('stress: of a vertex in MPa, and its range over the run without doubtful ve
   const envelope = body.mesh!.fields.find((candidate) => candidate.stress?.quantity === 'envelope')!;
   assert.deepEqual(fieldRange(data, body, envelope), [0, mesh.vertices.length / 3]);
 });
+
+test('lines of couplings go with the point they are fixed to; broken ones are said', () => {
+  const { page, writer } = vehicle();
+  const scene = page.scene!;
+  scene.strokes = [
+    { name: 'mesh', a: 0, points: writer.view('f32', [0, 0, 0, 1, 0, 0, 1, 1, 0], [3, 3]) },
+    { name: 'broken', a: 0, points: writer.view('f32', [0, 0, NaN, 1, 0, 0], [2, 3]) },
+    { name: 'nowhere', a: 100000, points: writer.view('f32', [0, 0, 0, 1, 0, 0], [2, 3]) },
+  ];
+  const said: string[] = [];
+  const { strokes } = readScene(scene, 'run', new PageBuffer(writer.buffer()), (s) => said.push(s));
+  assert.deepEqual(strokes.map((s) => s.name), ['mesh']);
+  assert.equal(strokes[0].points.length, 9);
+  assert.equal(said.length, 1);
+  assert.match(said[0], /Line of "broken"/);
+});
