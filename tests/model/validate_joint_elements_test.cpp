@@ -91,13 +91,15 @@ TEST(ValidateJointElements, NamesWhatIsWrong) {
 
 // What an element measures of a joint is its coordinate, and the rate that of the joint.
 TEST(MeasuredCoordinates, AreThoseOfTheJoint) {
-  const double q[7] = {0.3, -0.4, 0.5, 1.0, 0.0, 0.0, 0.0};
+  const double displaced[7] = {0.3, -0.4, 0.5, 1.0, 0.0, 0.0, 0.0},
+               turned[4] = {1.0, 0.0, 0.0, 0.0};
   const double v[6] = {1.1, -0.7, 0.9, 0.2, 0.3, -0.6};
   const Vec3 axis_2 = Vec3(0.6, 0.0, 0.8);
   for (const JointType type : joint_types) {
     Joint joint;
     joint.type = type;
     joint.axis_2 = type == JointType::universal ? axis_2 : Vec3::UnitX().eval();
+    const double* q = is_of_rotation_vector(type, 0) ? turned : displaced;
     JointMotion m;
     joint_motion(type, {Vec3::UnitZ(), joint.axis_2}, q, m);
     MarkerState F, M;

@@ -11,6 +11,7 @@
 namespace floatframe {
 
 std::string fault_text(const Formula& f, const FormulaFault& fault) {
+  if (fault.kind == FormulaFault::Kind::none) return "";  // of no step
   const std::string& source = f.sources[fault.step];
   switch (fault.kind) {
     case FormulaFault::Kind::none:
