@@ -32,11 +32,17 @@ constexpr ElementKey slide_along_keys[] = {
 
 void slide_along_validate(const ElementCheck& check) {
   check.two_bodies("from", "to");
-  if (check.good("points")) validate_curve_points(check, "points", check.matrix("points"), false);
+  const MatX points = check.matrix("points");
+  if (check.good("points") && points.rows() > 0)
+    validate_curve_points(check, "points", points, false);
 }
 
 bool slide_along_build(ElementBuild& build) {
   const MatX points = build.keys<SlideAlong>().points;
+  if (points.rows() == 0) {  // of a program
+    build.error(ErrorCode::missing, "found no points of the path, expected at least two");
+    return false;
+  }
   if (!build_constraint(build, Mat3::Identity(), Mat3::Identity(), false) || !build.slide(points))
     return false;
   PointOnCurve fixed;
