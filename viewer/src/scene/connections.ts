@@ -43,10 +43,16 @@ export class Connections {
 
   /** What couplings and constraints hold: pitch circles, strands, guides. */
   private addStroke(stroke: StrokeData): void {
-    const mesh = new Mesh(buildTube(stroke.points, 0.003 * this.size), plain(GUIDE_COLOUR));
+    // Seen through bodies: boxes that stand for wheels would hide them.
+    const material = plain(GUIDE_COLOUR);
+    material.depthTest = false;
+    material.transparent = true;
+    material.opacity = 0.85;
+    const mesh = new Mesh(buildTube(stroke.points, 0.004 * this.size), material);
     mesh.name = stroke.name;
+    mesh.renderOrder = 4;
     const body = this.scene.points[stroke.a].body;
-    this.own(mesh, 'joints', stroke.a);
+    this.own(mesh, 'springs', stroke.a);
     this.updates.push((motion, scale) => {
       mesh.position.set(...this.at(stroke.a, motion, scale));
       if (body >= 0) mesh.quaternion.fromArray(motion.quaternion, 4 * body);

@@ -27,6 +27,8 @@ export interface ColourChoice {
   map: MapName;
 }
 
+const turned = new Quaternion();
+
 export class Stage {
   readonly canvas = document.createElement('canvas');
   readonly renderer: WebGLRenderer;
@@ -286,13 +288,16 @@ export class Stage {
         box.union(new Sphere(new Vector3(...this.motion.pointPosition(point, this.deformation)), force.radius).getBoundingBox(part));
       }
     }
-    if (this.connections.layers.joints.visible) {
+    if (this.connections.layers.springs.visible) {
       for (const { a, points } of this.scene.strokes) {
         const { body } = this.scene.points[a];
         if (body >= 0 && !this.bodies[body].group.visible) continue;
-        let reach = 0;
-        for (let i = 0; i < points.length; i += 3) reach = Math.max(reach, Math.hypot(points[i], points[i + 1], points[i + 2]));
-        box.union(new Sphere(new Vector3(...this.motion.pointPosition(this.scene.points[a], this.deformation)), reach).getBoundingBox(part));
+        const from = new Vector3(...this.motion.pointPosition(this.scene.points[a], this.deformation));
+        for (let i = 0; i < points.length; i += 3) {
+          const p = new Vector3(points[i], points[i + 1], points[i + 2]);
+          if (body >= 0) p.applyQuaternion(turned.fromArray(this.motion.quaternion, 4 * body));
+          box.expandByPoint(p.add(from));
+        }
       }
     }
     return box.applyMatrix4(this.root.matrixWorld);

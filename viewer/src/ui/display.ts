@@ -143,7 +143,7 @@ export class Display {
       });
     }
     layer('Joints', 'joints', checking);
-    layer('Springs, rods', 'springs', true);
+    layer('Springs, rods, couplings', 'springs', true);
     layer('Tyres', 'tyres', true);
     layer('Forces', 'loads', checking);
     add('Body axes', checking, (on) => {

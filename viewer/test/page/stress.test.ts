@@ -27,7 +27,7 @@ async function showArm(page: Page): Promise<void> {
   await page.getByRole('tab', { name: 'Bodies' }).click();
   await page.getByRole('button', { name: 'Show only front_left_arm' }).click();
   await page.getByRole('button', { name: 'Fit' }).click();
-  for (const layer of ['Edges', 'Ground', 'Road', 'Springs, rods', 'Tyres']) {
+  for (const layer of ['Edges', 'Ground', 'Road', 'Springs, rods, couplings', 'Tyres']) {
     await page.getByRole('tab', { name: 'Display' }).click();
     await page.getByLabel(layer, { exact: true }).uncheck();
   }
