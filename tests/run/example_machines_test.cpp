@@ -34,7 +34,7 @@ struct MachineRun {
   }
 };
 
-MachineRun run_of(const std::string& example, Coordinates coordinates,
+MachineRun machine_run(const std::string& example, Coordinates coordinates,
                   const std::vector<ParameterOverride>& set = {}, double duration = 40.0) {
   const Model model = load_model(FLOATFRAME_EXAMPLES "/" + example + "/" + example + ".yaml", set);
   SimulationDescription o = model.simulation;
@@ -45,7 +45,7 @@ MachineRun run_of(const std::string& example, Coordinates coordinates,
 
 TEST(ExampleMachines, TeethOfTheExcavatorFollowTheGrade) {
   for (const Coordinates c : both_coordinates) {
-    const MachineRun rigid = run_of("excavator", c, {{"flexible", "false"}}, 5.0);
+    const MachineRun rigid = machine_run("excavator", c, {{"flexible", "false"}}, 5.0);
     for (const char* output : {"off_grade", "off_reach"}) {  // [mm]
       EXPECT_GT(rigid.range(output).first, -1e-5);
       EXPECT_LT(rigid.range(output).second, 1e-5);
@@ -54,14 +54,14 @@ TEST(ExampleMachines, TeethOfTheExcavatorFollowTheGrade) {
     EXPECT_LT(std::abs(e.largest_remainder), 1e-4 * e.exchanged);
   }
   const MachineRun flexible =
-      run_of("excavator", Coordinates::relative, {{"flexible", "true"}}, 5.0);
+      machine_run("excavator", Coordinates::relative, {{"flexible", "true"}}, 5.0);
   EXPECT_GT(flexible.range("off_grade").first, -6.0);
   EXPECT_LT(flexible.range("off_grade").second, -0.5);
 }
 
 TEST(ExampleMachines, TheCraneDampsTheSwayOfItsLoad) {
   for (const Coordinates c : both_coordinates) {
-    const MachineRun damped = run_of("crane", c), free = run_of("crane", c, {{"anti_sway", "0"}});
+    const MachineRun damped = machine_run("crane", c), free = machine_run("crane", c, {{"anti_sway", "0"}});
     EXPECT_LT(damped.amplitude("sway", 30.0, 40.0), 1e-3);  // [m]
     EXPECT_GT(free.amplitude("sway", 30.0, 40.0), 0.25);
     EXPECT_NEAR(damped.range("angle", 40.0).first, 1.57 * 180.0 / std::numbers::pi, 0.05);
@@ -76,7 +76,7 @@ TEST(ExampleMachines, TheCraneDampsTheSwayOfItsLoad) {
 TEST(ExampleMachines, TheWashingMachineSpinsUpThroughItsResonance) {
   const double above = 1.5 * 200.0 / (28.0 + 9.0 + 1.5);  // [mm]
   for (const Coordinates c : both_coordinates) {
-    const MachineRun machine = run_of("washing_machine", c);
+    const MachineRun machine = machine_run("washing_machine", c);
     EXPECT_NEAR(machine.amplitude("x", 35.0, 40.0), above, 0.03 * above);
     EXPECT_NEAR(machine.amplitude("z", 35.0, 40.0), above, 0.03 * above);
     EXPECT_GT(machine.amplitude("x", 14.0, 18.0), 2.5 * above);

@@ -36,7 +36,7 @@ simulation: {{{}}}
 }
 enum Column { x_column = 1, z_column, normal_column, torque_column, play_column, turn_column };
 
-double last_of(const RunResult& r, Column c) { return r.table.at(r.table.rows() - 1, c); }
+double end_of(const RunResult& r, Column c) { return r.table.at(r.table.rows() - 1, c); }
 
 // It comes to rest in the lowest place, at c + (W / k)^(1/n).
 TEST(JournalBearing, RestsWhereTheContactCarriesTheWeight) {
@@ -49,10 +49,10 @@ TEST(JournalBearing, RestsWhereTheContactCarriesTheWeight) {
     const double rest = 0.001 + std::pow(9.81 / stiffness, 1.0 / exponent);
     for (const Coordinates c : both_coordinates) {
       const RunResult r = completed_run(model, with(model.simulation, c));
-      EXPECT_NEAR(last_of(r, z_column), -rest, 1e-9) << exponent;
-      EXPECT_NEAR(last_of(r, play_column), rest, 1e-9) << exponent;
-      EXPECT_NEAR(last_of(r, normal_column), 9.81, 1e-3) << exponent;
-      EXPECT_EQ(last_of(r, torque_column), 0.0);
+      EXPECT_NEAR(end_of(r, z_column), -rest, 1e-9) << exponent;
+      EXPECT_NEAR(end_of(r, play_column), rest, 1e-9) << exponent;
+      EXPECT_NEAR(end_of(r, normal_column), 9.81, 1e-3) << exponent;
+      EXPECT_EQ(end_of(r, torque_column), 0.0);
     }
   }
 }
@@ -70,8 +70,8 @@ TEST(JournalBearing, WhirlsOnACircle) {
       EXPECT_NEAR(r.table.at(i, play_column), e, 1e-4 * e);
       EXPECT_NEAR(r.table.at(i, normal_column), k * (e - c), 2e-3 * k * (e - c));
     }
-    EXPECT_NEAR(last_of(r, x_column), e * std::cos(W * 0.2), 1e-3 * e);
-    EXPECT_NEAR(last_of(r, z_column), e * std::sin(W * 0.2), 1e-3 * e);
+    EXPECT_NEAR(end_of(r, x_column), e * std::cos(W * 0.2), 1e-3 * e);
+    EXPECT_NEAR(end_of(r, z_column), e * std::sin(W * 0.2), 1e-3 * e);
   }
 }
 
@@ -90,9 +90,9 @@ TEST(JournalBearing, BrakesAShaftThatTurns) {
         "step: 2.0e-4, duration: 0.2", 9.81));
     for (const Coordinates c : both_coordinates) {
       const RunResult r = completed_run(model, with(model.simulation, c));
-      EXPECT_NEAR(last_of(r, normal_column), N, 1e-5 * N);
-      EXPECT_NEAR(last_of(r, torque_column), std::copysign(mu * N * 0.02, -speed), 1e-6);
-      EXPECT_NEAR(last_of(r, x_column), x, 1e-6 * e);
+      EXPECT_NEAR(end_of(r, normal_column), N, 1e-5 * N);
+      EXPECT_NEAR(end_of(r, torque_column), std::copysign(mu * N * 0.02, -speed), 1e-6);
+      EXPECT_NEAR(end_of(r, x_column), x, 1e-6 * e);
     }
   }
 }

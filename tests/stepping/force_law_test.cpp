@@ -96,7 +96,8 @@ TEST(ForceLaw, AHertzContactKeepsItsEnergy) {
   const Model differences =
       with_law(ball + on_z, [](double z, double, double) { return hertz(z); });
   const Model formula = model_of(ball + R"(
-forces: {f: {type: joint_spring, joint: z, actuator: {formula: '1e7 * max(0, -0.5 - angle(z))^1.5'}}}
+forces:
+  f: {type: joint_spring, joint: z, actuator: {formula: '1e7 * max(0, -0.5 - angle(z))^1.5'}}
 )");
   for (const Coordinates c : both_coordinates)
     for (const Model* model : {&slopes, &differences, &formula}) {

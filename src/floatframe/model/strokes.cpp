@@ -12,7 +12,7 @@ namespace floatframe {
 
 namespace {
 
-constexpr double whole_turn = 2.0 * std::numbers::pi;
+constexpr double circle = 2.0 * std::numbers::pi;
 
 }  // namespace
 
@@ -58,10 +58,10 @@ void Strokes::wheel(int marker, const Vec3& axis, double radius, double teeth) {
   const Mat3 R = frame_with_z(axis);
   const bool toothed = teeth >= 3.0 && teeth <= 150.0;
   const int count = toothed ? 2 * static_cast<int>(std::lround(teeth)) : 64;
-  const double depth = toothed ? whole_turn * radius / count : 0.0;
+  const double depth = toothed ? circle * radius / count : 0.0;
   std::vector<Vec3> points;
   for (int k = 0; k <= count; ++k) {
-    const double angle = whole_turn * k / count, r = radius + (k % 2 == 0 ? 0.5 : -0.5) * depth;
+    const double angle = circle * k / count, r = radius + (k % 2 == 0 ? 0.5 : -0.5) * depth;
     points.push_back(R * Vec3(r * std::cos(angle), r * std::sin(angle), 0.0));
   }
   add(marker, std::move(points));
@@ -100,7 +100,7 @@ void Strokes::thread(int marker, const Vec3& axis, double radius, double length,
   const Mat3 R = frame_with_z(axis);
   std::vector<Vec3> points;
   for (int k = 0; k <= turns * each; ++k) {
-    const double angle = whole_turn * k / each,
+    const double angle = circle * k / each,
                  part = static_cast<double>(k) / (turns * each) - 0.5;
     points.push_back(R * Vec3(radius * std::cos(angle),
                               (left_hand ? -radius : radius) * std::sin(angle), part * length));

@@ -248,11 +248,11 @@ class OutputReader {
   }
 
   bool force(const OutputKind& kind, YamlSection& s, const YamlValue& what, OutputDescription& o) {
-    if (kind.one_of_values)
-      if (const auto value = s.get("output")) o.value = read_value_name(*value);
+    const auto value = kind.one_of_values ? s.get("output") : std::nullopt;
+    if (value) o.value = read_value_name(*value);
     if (!put(self_.reference(EntityKind::force, what), o.entity)) return false;
-    const auto type = model_.element_types.find(o.entity);
-    if (type != model_.element_types.end() && !element_has(type->second, kind.needs))
+    if (const auto type = model_.element_types.find(o.entity);
+        type != model_.element_types.end() && !element_has(type->second, kind.needs))
       what.error(ErrorCode::wrong_value, sentences::load_without(element_type_name(type->second),
                                                                  output_type_name(o.type)));
     return true;
@@ -267,13 +267,17 @@ class OutputReader {
     if (n == 0) {
       what.error(ErrorCode::wrong_value, sentences::weld_does_not_move());
     } else if (coordinate) {
-      const auto k = coordinate->integer(1, n, "the number of a coordinate");
-      if (k) o.component = *k - 1;
-      return k.has_value();
+      return number(*coordinate, n, o);
     } else if (n > 1) {
       s.error(ErrorCode::missing, "missing key 'coordinate'");
     }
     return n == 1;
+  }
+
+  static bool number(const YamlValue& coordinate, int n, OutputDescription& o) {
+    const auto k = coordinate.integer(1, n, "the number of a coordinate");
+    if (k) o.component = *k - 1;
+    return k.has_value();
   }
 
   /// Of a joint with several driven coordinates the number of one.
@@ -282,12 +286,7 @@ class OutputReader {
       if (j.name != o.entity || j.motions.empty()) continue;
       const auto coordinate = s.get("coordinate");
       o.component = j.motions[0].coordinate;
-      if (coordinate) {
-        const auto k =
-            coordinate->integer(1, joint_velocities(j.type), "the number of a coordinate");
-        if (k) o.component = *k - 1;
-        return k.has_value();
-      }
+      if (coordinate) return number(*coordinate, joint_velocities(j.type), o);
       if (j.motions.size() > 1) s.error(ErrorCode::missing, "missing key 'coordinate'");
       return j.motions.size() == 1;
     }

@@ -1,5 +1,6 @@
 // Scalar force of a force element, tension positive [N], or its torque [N m]; or another value of
 // one that has several.
+#include "floatframe/model/element_keys.hpp"
 #include "floatframe/model/output_kind.hpp"
 
 namespace floatframe {
