@@ -35,7 +35,7 @@ struct MachineRun {
 };
 
 MachineRun machine_run(const std::string& example, Coordinates coordinates,
-                  const std::vector<ParameterOverride>& set = {}, double duration = 40.0) {
+                       const std::vector<ParameterOverride>& set = {}, double duration = 40.0) {
   const Model model = load_model(FLOATFRAME_EXAMPLES "/" + example + "/" + example + ".yaml", set);
   SimulationDescription o = model.simulation;
   o.coordinates = coordinates;
@@ -61,7 +61,8 @@ TEST(ExampleMachines, TeethOfTheExcavatorFollowTheGrade) {
 
 TEST(ExampleMachines, TheCraneDampsTheSwayOfItsLoad) {
   for (const Coordinates c : both_coordinates) {
-    const MachineRun damped = machine_run("crane", c), free = machine_run("crane", c, {{"anti_sway", "0"}});
+    const MachineRun damped = machine_run("crane", c),
+                     free = machine_run("crane", c, {{"anti_sway", "0"}});
     EXPECT_LT(damped.amplitude("sway", 30.0, 40.0), 1e-3);  // [m]
     EXPECT_GT(free.amplitude("sway", 30.0, 40.0), 0.25);
     EXPECT_NEAR(damped.range("angle", 40.0).first, 1.57 * 180.0 / std::numbers::pi, 0.05);
