@@ -18,12 +18,11 @@
 #include <cassert>
 #include <cmath>
 
-#include "floatframe/math/types.hpp"
+#include "floatframe/formulation/equations_of_motion.hpp"
 
 namespace floatframe {
 
-/// F: a formulation.
-template <class F>
+template <EquationsOfMotion F>
 class LoadIteration {
  public:
   /// Newton iterations of a step with loads.

@@ -138,6 +138,7 @@ struct ElementKind {
   /// Its actuator may be a formula of its own measure (local_formula.hpp).
   bool local_actuator = false;
   bool bears = false;    ///< `is_bearing`
+  bool on_line = false;  ///< its second marker slides along z of the first, a straight line
   bool contact = false;  ///< with a restitution at the speed of a touch, which is its first kept
                          ///< number, and the key `least_speed`
   /// `lifted_by`: the last signal, which belongs to no key, lifts it.

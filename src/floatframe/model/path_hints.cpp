@@ -74,8 +74,9 @@ void hint_at_paths(const ModelDescription& description, const Model& model, Hint
   constexpr int most_nodes = 2000;
   constexpr double noticeable = 0.002;
   for (const Element& e : model.elements) {
-    if (e.type != ElementType::slide_along || !model.markers[e.markers[0]].path) continue;
+    if (e.markers.empty() || e.markers[0] < 0) continue;
     const Marker& m = model.markers[e.markers[0]];
+    if (!m.path) continue;
     const BodyDescription& body = description.bodies[m.body];
     const auto* frame = std::get_if<FlexibleDescription>(&body.kind);
     if (!frame || frame->analytic || frame->basis || body.mirror != Mat3::Identity()) continue;

@@ -125,7 +125,7 @@ void report_rigid_tangents(const Model& model, StartReport& report) {
     }
   }
   for (const Element& e : model.elements)
-    if (e.type == ElementType::in_line && goes_along(model, model.markers[e.markers[0]], 1))
+    if (element_kind(e.type).on_line && goes_along(model, model.markers[e.markers[0]], 1))
       note("constraint '" + e.name + "'", model.markers[e.markers[0]]);
 }
 

@@ -45,6 +45,7 @@ constinit const ElementKind in_line_element = {
     .validate = validate_constraint,
     .build = in_line_build,
     .rows = in_line_rows,
+    .on_line = true,
     .picture = picture_of_constraint,
     .strokes = in_line_strokes,
     .regimes = constraint_regimes,
