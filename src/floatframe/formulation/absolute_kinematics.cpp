@@ -32,7 +32,7 @@ AbsoluteKinematics::AbsoluteKinematics(const Model& model, ConstraintSet& constr
     d.outer.a_bias.setZero();
     if (d.slides) {
       d.s.foot = &d.slides->foot;
-      sliding_.push_back(static_cast<int>(markers_.size()));
+      sliding_.push_back(std::ssize(markers_));
     }
     markers_.push_back(std::move(d));
   }

@@ -17,7 +17,7 @@ class LoadReaders {
   /// Allocates.
   LoadReaders(const Model& model, const ConstraintSet& constraints);
 
-  int count() const noexcept { return static_cast<int>(readers_.size()); }
+  int count() const noexcept { return std::ssize(readers_); }
   std::size_t element(int i) const noexcept { return at(i).element; }
   int joint(int i) const noexcept { return at(i).port.joint; }
   /// Of the constraint parts with the multipliers lambda.

@@ -39,7 +39,7 @@ class SlidingPoint {
       }
       return v;
     };
-    const double end = path_.last(), widest = end / static_cast<double>(n - 1);
+    const double end = path_.last(), widest = end / (n - 1);
     const double u = foot_parameter(path_.knots()[nearest(p)], widest, p, at,
                                     [&](double x) { return x <= 0.0 || x >= end; });
     const CurveValue v = at(u);
@@ -68,7 +68,7 @@ class SlidingPoint {
   std::size_t nearest(const Vec3& p) const noexcept {
     Eigen::Index k = 0;
     (places_.colwise() - p).colwise().squaredNorm().minCoeff(&k);
-    return static_cast<std::size_t>(k);
+    return k;
   }
 
   const SlidePath& path_;

@@ -39,7 +39,7 @@ TreeKinematics::TreeKinematics(const Model& model)
     stiffens_ = stiffens_ || markers_[i].second;
     if (!markers_[i].slides) continue;
     markers_[i].s.foot = &markers_[i].slides->foot;
-    sliding_.push_back(static_cast<int>(i));
+    sliding_.push_back(i);
   }
 }
 

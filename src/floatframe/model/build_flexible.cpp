@@ -180,7 +180,7 @@ BodyShape bar_shape(const FrameDescription& frame, const FeModel& model) {
     const Vec3 x = (model.positions[bar.to] - model.positions[bar.from]).normalized();
     bar.y = (e.reference - e.reference.dot(x) * x).normalized();
     // Each bar has its own section, in the order of the bars.
-    set_section(frame.bars[static_cast<std::size_t>(e.section)].section, bar);
+    set_section(frame.bars[e.section].section, bar);
     out.bars.push_back(bar);
   }
   return out;

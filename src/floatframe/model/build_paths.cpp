@@ -86,14 +86,14 @@ bool ElementBuild::slide(const MatX& points) {
   Mat3X places(3, std::ssize(found));
   for (std::size_t k = 0; k < found.size(); ++k) {
     on_path.push_back(found[k].node);
-    places.col(static_cast<Eigen::Index>(k)) = nodes[found[k].node].p;
+    places.col(k) = nodes[found[k].node].p;
   }
   m.node = on_path.front();
   m.X_NM = Pose();
   m.rotates = false;
   m.path = std::make_shared<const SlidePath>(std::move(on_path), places);
   m.guide = element.markers[1];
-  element.markers[0] = static_cast<int>(model.markers.size());
+  element.markers[0] = std::ssize(model.markers);
   model.markers.push_back(std::move(m));
   return true;
 }

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 
+#include "floatframe/model/element_data.hpp"
 #include "floatframe/model/joint_motion.hpp"
 
 namespace floatframe {
@@ -179,7 +180,7 @@ void append_sum(const Model& model, const Element& element, std::span<const doub
 
 void coupled_rows(const Model& model, const Element& element, ConstraintPart part,
                   std::vector<ConstraintPart>& parts) {
-  const CoupledSum& sum = *static_cast<const CoupledSum*>(element.data.get());
+  const CoupledSum& sum = data_of<CoupledSum>(element);
   append_sum(model, element, sum.factors, &sum.value, part, parts);
 }
 

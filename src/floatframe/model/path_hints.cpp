@@ -27,8 +27,8 @@ class SagOfNodes {
     place_.assign(held.size(), -1);
     for (std::size_t i = 0; i < held.size(); ++i)
       if (!held[i]) {
-        place_[i] = static_cast<int>(free_.size());
-        free_.push_back(static_cast<int>(i));
+        place_[i] = std::ssize(free_);
+        free_.push_back(i);
       }
     factors_.emplace(pick(assemble_stiffness(fe), free_, free_));
   }

@@ -67,10 +67,10 @@ template <class Fixed>
 void append_residual_shapes(const Fixed& fixed, const Eigen::SparseMatrix<double>& K,
                             const Eigenmodes& normal, const std::vector<int>& loaded,
                             ModeSet& set) {
-  const auto n = static_cast<Eigen::Index>(loaded.size());
+  const Eigen::Index n = std::ssize(loaded);
   if (n == 0) return;
   MatX F = MatX::Zero(K.rows(), n);
-  for (Eigen::Index k = 0; k < n; ++k) F(loaded[static_cast<std::size_t>(k)], k) = 1.0;
+  for (Eigen::Index k = 0; k < n; ++k) F(loaded[k], k) = 1.0;
   MatX R = fixed.inner_response(F);
   const double whole = F.cwiseProduct(R).colwise().sum().maxCoeff();
   const MatX share =

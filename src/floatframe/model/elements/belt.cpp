@@ -7,6 +7,7 @@
 
 #include "floatframe/model/coupled_coordinates.hpp"
 #include "floatframe/model/coupled_spring.hpp"
+#include "floatframe/model/element_data.hpp"
 #include "floatframe/model/port_measures.hpp"
 #include "floatframe/model/strokes.hpp"
 
@@ -78,7 +79,7 @@ bool belt_build(ElementBuild& build) {
 
 void belt_rows(const Model& model, const Element& element, ConstraintPart part,
                std::vector<ConstraintPart>& parts) {
-  const CoupledSum& sum = static_cast<const BeltData*>(element.data.get())->sum;
+  const CoupledSum& sum = data_of<BeltData>(element).sum;
   append_sum(model, element, sum.factors, &sum.value, part, parts);
 }
 

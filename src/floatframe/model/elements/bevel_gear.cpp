@@ -5,6 +5,7 @@
 // generatrix u between e_1 and e_2, qdot_1 e_1 x u = qdot_2 e_2 x u. It exerts torques about the
 // axes, also for worms and hypoid gears, and no force of teeth.
 #include "floatframe/model/coupled_coordinates.hpp"
+#include "floatframe/model/element_data.hpp"
 #include "floatframe/model/strokes.hpp"
 
 namespace floatframe {
@@ -54,7 +55,7 @@ ElementExample bevel_gear_example(std::size_t, ExampleNumbers& numbers) {
 /// Wheels in the ratio: of what the axes cross only their joints say.
 std::vector<Stroke> bevel_gear_strokes(const Model& model, const Element& element) {
   Strokes out(model, element);
-  const double ratio = std::abs(static_cast<const CoupledSum*>(element.data.get())->factors[1]);
+  const double ratio = std::abs(data_of<CoupledSum>(element).factors[1]);
   const double r = 0.5 * out.size(out.child(0));
   out.wheels(0, std::min(r, r / ratio), 1, std::min(r, r * ratio));
   return out.take();

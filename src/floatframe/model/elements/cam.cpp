@@ -14,6 +14,7 @@
 #include "floatframe/math/so3.hpp"
 #include "floatframe/model/cam_profile.hpp"
 #include "floatframe/model/coupled_coordinates.hpp"
+#include "floatframe/model/element_data.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/strokes.hpp"
 
@@ -142,7 +143,7 @@ bool cam_build(ElementBuild& build) {
 void cam_rows(const Model& model, const Element& element, ConstraintPart part,
               std::vector<ConstraintPart>& parts) {
   const Cam& keys = std::get<Cam>(*element.keys);
-  const CamProfile& profile = *static_cast<const CamProfile*>(element.data.get());
+  const CamProfile& profile = data_of<CamProfile>(element);
   const double factors[] = {keys.follower.factor, profile.steepest()};
   append_sum(model, element, factors, nullptr, part, parts);
   ConstraintPart& cam = parts.back();
@@ -160,7 +161,7 @@ ElementExample cam_example(std::size_t, ExampleNumbers& numbers) {
 
 /// What the follower touches, as drawn: of a cam that turns by q the place at -q from it.
 std::vector<Stroke> cam_strokes(const Model& model, const Element& element) {
-  const CamProfile& profile = *static_cast<const CamProfile*>(element.data.get());
+  const CamProfile& profile = data_of<CamProfile>(element);
   Strokes out(model, element);
   const int cam = out.child(1);
   const Vec3 z = out.axis(1), up = out.in(cam, out.world_axis(0));

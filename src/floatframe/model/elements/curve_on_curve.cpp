@@ -11,6 +11,7 @@
 #include "floatframe/model/axis_constraint.hpp"
 #include "floatframe/model/curve_contact.hpp"
 #include "floatframe/model/curve_keys.hpp"
+#include "floatframe/model/element_data.hpp"
 #include "floatframe/model/strokes.hpp"
 
 namespace floatframe {
@@ -107,8 +108,7 @@ bool curve_on_curve_build(ElementBuild& build) {
 void curve_on_curve_rows(const Model& model, const Element& element, ConstraintPart part,
                          std::vector<ConstraintPart>& parts) {
   ConstraintParts of(model, element, part, parts);
-  of.add(ConstraintType::curve_on_curve).curves =
-      static_cast<const CurveContact*>(element.data.get());
+  of.add(ConstraintType::curve_on_curve).curves = &data_of<CurveContact>(element);
 }
 
 void curve_on_curve_mirror(ElementDescription& element, const Placement& x) {
@@ -118,7 +118,7 @@ void curve_on_curve_mirror(ElementDescription& element, const Placement& x) {
 }
 
 std::vector<Stroke> curve_on_curve_strokes(const Model& model, const Element& element) {
-  const auto* contact = static_cast<const CurveContact*>(element.data.get());
+  const auto* contact = &data_of<CurveContact>(element);
   Strokes out(model, element);
   for (const bool second : {false, true})
     out.curve(element.markers[second ? 1 : 0], contact->curve(second).samples());

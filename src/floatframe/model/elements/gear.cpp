@@ -28,6 +28,7 @@
 
 #include "floatframe/model/coupled_coordinates.hpp"
 #include "floatframe/model/coupled_spring.hpp"
+#include "floatframe/model/element_data.hpp"
 #include "floatframe/model/loop_mobility.hpp"
 #include "floatframe/model/port_measures.hpp"
 #include "floatframe/model/strokes.hpp"
@@ -189,7 +190,7 @@ bool gear_build(ElementBuild& build) {
 /// (4)
 void gear_rows(const Model& model, const Element& element, ConstraintPart part,
                std::vector<ConstraintPart>& parts) {
-  const GearTeeth& teeth = *static_cast<const GearTeeth*>(element.data.get());
+  const GearTeeth& teeth = data_of<GearTeeth>(element);
   const std::size_t first = parts.size();
   append_sum(model, element, teeth.sum.factors, &teeth.sum.value, part, parts);
   if (!teeth.at_pitch_point) return;
@@ -242,7 +243,7 @@ ElementExample gear_example(std::size_t regime, ExampleNumbers& numbers) {
 
 /// The pitch circles of (2), or of wheels on one axis two circles in the ratio.
 std::vector<Stroke> gear_strokes(const Model& model, const Element& element) {
-  const auto& teeth = *static_cast<const GearTeeth*>(element.data.get());
+  const auto& teeth = data_of<GearTeeth>(element);
   const double ratio = std::abs(teeth.sum.factors[1]);
   const bool internal = std::get<Gear>(*element.keys).internal;
   Strokes out(model, element);

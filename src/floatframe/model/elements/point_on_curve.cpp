@@ -2,6 +2,7 @@
 // `on_curve`. The curve is given from the point of `from` along the axes of the world as drawn.
 #include "floatframe/model/axis_constraint.hpp"
 #include "floatframe/model/curve_keys.hpp"
+#include "floatframe/model/element_data.hpp"
 #include "floatframe/model/strokes.hpp"
 
 namespace floatframe {
@@ -38,7 +39,7 @@ bool point_on_curve_build(ElementBuild& build) {
 void point_on_curve_rows(const Model& model, const Element& element, ConstraintPart part,
                          std::vector<ConstraintPart>& parts) {
   ConstraintParts of(model, element, part, parts);
-  of.add(ConstraintType::on_curve).curve = static_cast<const SpaceCurve*>(element.data.get());
+  of.add(ConstraintType::on_curve).curve = &data_of<SpaceCurve>(element);
 }
 
 void point_on_curve_mirror(ElementDescription& element, const Placement& x) {
@@ -57,7 +58,7 @@ ElementExample point_on_curve_example(std::size_t, ExampleNumbers& numbers) {
 
 std::vector<Stroke> point_on_curve_strokes(const Model& model, const Element& element) {
   Strokes out(model, element);
-  out.curve(element.markers[0], static_cast<const SpaceCurve*>(element.data.get())->samples());
+  out.curve(element.markers[0], data_of<SpaceCurve>(element).samples());
   return out.take();
 }
 

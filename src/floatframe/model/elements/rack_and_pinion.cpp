@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "floatframe/model/coupled_coordinates.hpp"
+#include "floatframe/model/element_data.hpp"
 #include "floatframe/model/strokes.hpp"
 
 namespace floatframe {
@@ -47,7 +48,7 @@ ElementExample rack_and_pinion_example(std::size_t, ExampleNumbers& numbers) {
 /// along s is r s x z from its axis z.
 std::vector<Stroke> rack_and_pinion_strokes(const Model& model, const Element& element) {
   Strokes out(model, element);
-  const std::vector<double>& factors = static_cast<const CoupledSum*>(element.data.get())->factors;
+  const std::vector<double>& factors = data_of<CoupledSum>(element).factors;
   const double r = -factors[1] / factors[0];
   const Vec3 along = out.world_axis(0), to_rack = r * along.cross(out.world_axis(1));
   const Vec3 middle = out.place(1) + to_rack - out.place(0);

@@ -4,6 +4,7 @@
 // a motion the travel along the line is a function of time: one row `drive_on_curve`.
 #include "floatframe/model/axis_constraint.hpp"
 #include "floatframe/model/curve_keys.hpp"
+#include "floatframe/model/element_data.hpp"
 #include "floatframe/model/slide_path.hpp"
 #include "floatframe/model/strokes.hpp"
 
@@ -55,7 +56,7 @@ bool slide_along_build(ElementBuild& build) {
 void slide_along_rows(const Model& model, const Element& element, ConstraintPart part,
                       std::vector<ConstraintPart>& parts) {
   ConstraintParts of(model, element, part, parts);
-  const auto* curve = static_cast<const SpaceCurve*>(element.data.get());
+  const auto* curve = &data_of<SpaceCurve>(element);
   of.add(ConstraintType::on_curve).curve = curve;
   if (!std::get<SlideAlong>(*element.keys).motion) return;
   ConstraintPart& drive = of.add(ConstraintType::drive_on_curve);
@@ -69,7 +70,7 @@ void slide_along_mirror(ElementDescription& element, const Placement& x) {
 
 std::vector<Stroke> slide_along_strokes(const Model& model, const Element& element) {
   Strokes out(model, element);
-  out.curve(element.markers[0], static_cast<const SpaceCurve*>(element.data.get())->samples());
+  out.curve(element.markers[0], data_of<SpaceCurve>(element).samples());
   return out.take();
 }
 
