@@ -1,6 +1,6 @@
 # Everyday commands. `make demo` and `make test` do everything from a fresh clone on Debian 12 or 13 or Ubuntu 24.04.
 .DEFAULT_GOAL := build
-.PHONY: build test test-all test-nightly test-contracts test-viewer attacks test-export test-decks test-figures python test-python test-python-asan wheel test-wheel archive demo docs bench bench-record bench-compare race asan dev fuzz install-packages format check-format clean help
+.PHONY: build test test-all stairs-and-kills test-nightly test-contracts test-viewer attacks test-export test-decks test-figures python test-python test-python-asan wheel test-wheel archive demo docs bench bench-record bench-compare race asan dev fuzz install-packages format check-format clean help
 
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 VERSION := $(shell awk '/^project/ {print $$3}' CMakeLists.txt)
@@ -48,15 +48,17 @@ test: build
 # docs/validation.md has the figures.
 test-all: test
 	cd build && FLOATFRAME_RANDOM=1000 $(CTEST) --timeout 20000 -R '^mechanisms\.'
-	$(MAKE) --no-print-directory attacks ATTACKS=200
-	FLOATFRAME_STAIRS=1 build/tests/run_tests --gtest_brief=1 --gtest_filter='*IltisStairs*'
-	FLOATFRAME_KILLS=20 FLOATFRAME_BINARY=build/floatframe python3 -B tests/cli/kill_test.py
+	$(MAKE) --no-print-directory -j2 --output-sync attacks stairs-and-kills ATTACKS=200
 	$(MAKE) --no-print-directory test-viewer
 	$(MAKE) --no-print-directory test-export
 	$(MAKE) --no-print-directory test-decks
 	$(MAKE) --no-print-directory test-figures
 	$(MAKE) --no-print-directory test-python
 	$(MAKE) --no-print-directory test-wheel
+
+stairs-and-kills: build
+	FLOATFRAME_STAIRS=1 build/tests/run_tests --gtest_brief=1 --gtest_filter='*IltisStairs*'
+	FLOATFRAME_KILLS=20 FLOATFRAME_BINARY=build/floatframe python3 -B tests/cli/kill_test.py
 
 # The random suites of `make test` with so many cases each: mechanisms, formulas, loops, reactions, trees; and attacks.
 CASES ?= 1000

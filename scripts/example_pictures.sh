@@ -16,3 +16,4 @@ picture gear_train 0.3 1
 picture cam 0.002 1
 picture robot_arm 1 10
 picture scissor_lift 3 1
+picture crane_with_trolley 12 100

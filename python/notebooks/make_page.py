@@ -46,6 +46,7 @@ One idea each, as a model file with a picture and numbers that a test compares w
 | [`cam`](../examples/cam/README.md) | lifts with exact derivatives, and lift-off |
 | [`robot_arm`](../examples/robot_arm/README.md) | flexible links with PID controllers |
 | [`scissor_lift`](../examples/scissor_lift/README.md) | several loops, and a cylinder |
+| [`crane_with_trolley`](../examples/crane_with_trolley/README.md) | what rolls along a flexible body |
 
 Mechanisms with closed forms to learn from are the [benchmarks](../examples/benchmarks/README.md): differential, screw jack, belt, friction, restitution,
 cycloid.

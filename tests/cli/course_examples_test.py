@@ -95,6 +95,18 @@ class CourseExamples(unittest.TestCase):
             self.assertAlmostEqual(found["height"][-1] - found["height"][0], 600.0, delta=1e-4)
             self.assertAlmostEqual(found["arm"][-1], -degrees(asin(1.3 / 2) - asin(0.5)), delta=1e-6)
 
+    def test_girder_sags_below_its_trolley(self):
+        length, stiffness, weight, force = 20.0, 2.1e11 * 1.2e-3, G * 157, G * 2400
+        def sag(x, a):  # of the girder under a force at a, from its end to x <= a
+            own = weight * x * (length**3 - 2 * length * x**2 + x**3) / (24 * stiffness)
+            return own + force * (length - a) * x * (length**2 - (length - a) ** 2 - x**2) / (6 * length * stiffness)
+        for coordinates in BOTH:
+            found = run("crane_with_trolley", coordinates)
+            # The girder is shorter between its ends by what it bends, and gives by shear, too.
+            self.assertAlmostEqual(-found["trolley_z"][0] / sag(3.0, 3.0), 1.0, delta=0.01)
+            self.assertAlmostEqual(found["travel"][-1], 17.0, delta=1e-6)
+            self.assertGreater(max(map(abs, found["swing"])), 0.02)
+
 
 if __name__ == "__main__":
     unittest.main()
