@@ -308,7 +308,7 @@ class AugmentedLagrangian final : public Integrator {
   }
 
   bool is_converged(const StepAttempt& report, double error) const noexcept {
-    if (loads_.needed() && report.iterations < LoadIteration<F>::least_iterations) return false;
+    if (loads_.needed() && report.iterations < LoadIteration::least_iterations) return false;
     // An increment below the tolerance leaves a much smaller error; a predicted error below a
     // fiftieth of the tolerance needs no further increment to confirm it.
     const bool small = report.increment < options_.tolerance && error < options_.tolerance;
@@ -349,7 +349,7 @@ class AugmentedLagrangian final : public Integrator {
 
   F& f_;
   SignalUpdate<F> signals_;
-  LoadIteration<F> loads_;
+  LoadIteration loads_;
   VecX q_, x_, v_, a_, a_alg_, rhs_, delta_, v_hat_, a_hat_;
   VecX lambda_, rate_, work_, increments_;
   VecX z_hat_;  ///< of the states of elements

@@ -18,18 +18,18 @@
 #include <cassert>
 #include <cmath>
 
-#include "floatframe/formulation/equations_of_motion.hpp"
+#include "floatframe/math/types.hpp"
 
 namespace floatframe {
 
-template <EquationsOfMotion F>
+/// f: a formulation.
 class LoadIteration {
  public:
   /// Newton iterations of a step with loads.
   static constexpr int least_iterations = 3;
 
   /// Allocates.
-  explicit LoadIteration(const F& f) {
+  explicit LoadIteration(const auto& f) {
     const int n = f.load_count();
     loads_ = found_ = gap_ = change_ = c_ = VecX::Zero(n);
     if (n == 0) return;
@@ -48,7 +48,7 @@ class LoadIteration {
   }
   /// The efforts of the elements at an iterate, after `dynamics`; with p, and the slot of the
   /// factors of (2); -1: none.
-  void follow(F& f, const VecX& a, const VecX& lambda, double penalty, int slot) noexcept {
+  void follow(auto& f, const VecX& a, const VecX& lambda, double penalty, int slot) noexcept {
     assert(needed() && a.size() == a_.size() && lambda.size() == lambda_.size());
     a_ = a + da_;
     if (slot >= 0 && rate_.size() > 0) {  // (2)
@@ -63,7 +63,7 @@ class LoadIteration {
     iterate(f, a_, lambda_);
   }
   /// The same for a and lambda that satisfy the constraints.
-  void iterate(F& f, const VecX& a, const VecX& lambda) noexcept {
+  void iterate(auto& f, const VecX& a, const VecX& lambda) noexcept {
     f.loads(loads_);
     f.find_loads(a, lambda, found_);
     const double size = std::max(found_.cwiseAbs().maxCoeff(), loads_.cwiseAbs().maxCoeff());

@@ -284,7 +284,7 @@ bool start_accelerations(Formulation& f, State& state, double penalty_mass) {
   // Loads of joints that friction reads depend on the accelerations, and these on the friction.
   constexpr int most_rounds = 100;
   constexpr double enough = 1e-9, most_left = 1e-4;
-  LoadIteration<Formulation> loads(f);
+  LoadIteration loads(f);
   loads.begin();
   for (int round = 0; round == 0 || (round < most_rounds && loads.change() > enough); ++round) {
     loads.iterate(f, state.a, state.lambda);
