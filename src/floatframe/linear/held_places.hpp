@@ -1,5 +1,5 @@
 #pragma once
-// Roots of zero that are no rigid motions. Friction by bristles s with sdot = v holds a coordinate x
+// Roots of zero that are no rigid motions. Friction by bristles s, sdot = v, holds a coordinate x
 // wherever it is: A z = 0 of z = (x, v = 0, s = 0). Moved slowly, x takes the states without an
 // equation at rest along, ds = sdot_v x, and their force holds it. With E of the states of
 // elements, V of the velocities and X of the increments, each of z, and E+, V+ back,
