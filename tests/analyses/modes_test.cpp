@@ -209,5 +209,46 @@ simulation: {step: 0.001, duration: 1}
       << report.text;
 }
 
+// Friction that sticks holds a slide as a spring of 2e4 N/m, wherever it is: a root of zero that is
+// no rigid motion, also beside those of a free body.
+TEST(Modes, FrictionThatSticksHolds) {
+  const std::string slide = R"(
+gravity: [0, 0, 0]
+bodies:
+  c: {position: [0, 0, 1], rigid: {mass: 1, inertia: [1, 1, 1]}}
+  box: {position: [0, 0, 0], rigid: {mass: 2, inertia: [1, 1, 1]}}
+joints:
+  c: {type: prismatic, child: c, at: [0, 0, 1], axis: z,
+      friction: {breakaway: 20, stiffness: 2.0e4, damping: 20, elastic: ELASTIC}}
+  box: {type: FREE, child: box, at: [0, 0, 0]}
+simulation: {step: 0.001, duration: 1}
+)";
+  const auto with = [&](const std::string& joint, const std::string& elastic) {
+    std::string text = slide;
+    text.replace(text.find("FREE"), 4, joint);
+    text.replace(text.find("ELASTIC"), 7, elastic);
+    return model_of(text);
+  };
+  for (const char* elastic : {"0.95", "0"})
+    for (const Coordinates c : {Coordinates::relative, Coordinates::absolute})
+      for (const bool free : {false, true}) {
+        Model model = with(free ? "free" : "weld", elastic);
+        model.simulation.coordinates = c;
+        const AnalysisReport report = modes_analysis().run(model);
+        const auto json = Json::parse(report.json);
+        int held = 0;
+        double frequency = 0.0;
+        for (const auto& m : json["modes"]) {
+          held += m["kind"] == "held";
+          if (m["kind"] == "vibration") frequency = m["undamped_frequency_Hz"];
+        }
+        EXPECT_EQ(held, 1) << report.text;
+        EXPECT_EQ(json["rigid_motions"], free ? 6 : 0) << report.text;
+        EXPECT_NEAR(frequency, std::sqrt(2e4) / (2.0 * std::numbers::pi), 1e-6);
+        EXPECT_NE(report.text.find("1 root of zero without a motion"), std::string::npos)
+            << report.text;
+      }
+}
+
 }  // namespace
 }  // namespace floatframe::test

@@ -11,6 +11,7 @@
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/plural.hpp"
 #include "floatframe/core/text_table.hpp"
+#include "floatframe/linear/held_places.hpp"
 #include "floatframe/linear/linear_system.hpp"
 #include "floatframe/linear/operating_point.hpp"
 #include "floatframe/math/dense.hpp"
@@ -44,12 +45,14 @@ std::string shares_text(const std::vector<EnergyShare>& shares) {
 }
 
 /// Kind of an eigenvalue lambda.
-std::string kind_of(const LinearMode& m, double largest) {
-  if (std::abs(m.lambda) <= zero_part * largest) return "rigid";
+std::string kind_of(const LinearMode& m, double largest, const HeldPlaces& places) {
+  if (std::abs(m.lambda) <= zero_part * largest) return places.holds(m) ? "held" : "rigid";
   const bool grows = m.lambda.real() > zero_part * std::abs(m.lambda);
   if (m.lambda.imag() <= zero_part * std::abs(m.lambda)) return grows ? "growth" : "decay";
   return grows ? "unstable" : "vibration";
 }
+
+bool is_still(const ShownMotion& m) { return m.kind == "rigid" || m.kind == "held"; }
 
 std::vector<EnergyShare> kinetic_shares(const Model& model, const ModeParts& parts) {
   std::vector<EnergyShare> shares;
@@ -74,11 +77,12 @@ std::string damping_text(double ratio) {
 /// Unrestrained motions, one column of states each: the independent increments among the zero
 /// modes, in which position and velocity have one each. In each motion one coordinate moves by one
 /// that does not move in the others: for a free body, three translations and three rotations.
+/// Places that friction holds are none.
 MatX rigid_motions(const LinearSystem& system, const std::vector<ShownMotion>& modes) {
   const Eigen::Index nz = system.A.rows();
   MatX z(nz, 0);
   for (const ShownMotion& m : modes) {
-    if (m.kind != "rigid") continue;
+    if (!is_still(m)) continue;
     const Eigen::Index at = z.cols();
     z.conservativeResize(Eigen::NoChange, at + 2);
     z.col(at) = m.mode.z.real();
@@ -87,13 +91,13 @@ MatX rigid_motions(const LinearSystem& system, const std::vector<ShownMotion>& m
   if (z.cols() == 0) return z;
   const MatX x = system.x_of * z;
   const PivotedQr columns = pivoted_qr(x, 1e-6);
-  const Eigen::Index count = columns.rank;
-  MatX chosen(nz, count), moved(x.rows(), count), square(count, count);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    chosen.col(k) = z.col(columns.pivots[k]);
-    moved.col(k) = x.col(columns.pivots[k]);
-  }
+  MatX independent(nz, columns.rank);
+  for (Eigen::Index k = 0; k < columns.rank; ++k) independent.col(k) = z.col(columns.pivots[k]);
+  const MatX chosen = HeldPlaces(system).free(independent);
+  const Eigen::Index count = chosen.cols();
   if (count == 0) return chosen;
+  const MatX moved = system.x_of * chosen;
+  MatX square(count, count);
   const PivotedQr rows = pivoted_qr(moved.transpose());
   std::vector<int> coordinates(rows.pivots.begin(), rows.pivots.begin() + count);
   std::sort(coordinates.begin(), coordinates.end());
@@ -110,16 +114,24 @@ bool lists_all(const LinearSystem& system, const std::vector<ShownMotion>& modes
 
 std::string rigid_text(const Model& model, const LinearSystem& system, Eigen::Index count,
                        const std::vector<ShownMotion>& modes) {
-  if (count == 0) return "";
+  const auto held = std::ranges::count(modes, "held", &ShownMotion::kind);
+  const std::string places =
+      held == 0 ? ""
+                : fmt::format(
+                      "{} of zero without a motion: friction that sticks holds wherever it "
+                      "is\n\n",
+                      plural(held, "root"));
+  if (count == 0) return places;
   std::string names;
   for (std::size_t i = 0; i < model.bodies.size(); ++i)
     if (std::any_of(modes.begin(), modes.end(), [&](const ShownMotion& m) {
           return m.kind == "rigid" && m.moves[i].part >= 0.05;
         }))
       names += (names.empty() ? ": moves " : ", ") + model.bodies[i].name;
-  const bool more = modes.back().kind == "rigid" && !lists_all(system, modes);
+  const bool more = is_still(modes.back()) && !lists_all(system, modes);
   return fmt::format("{}{} that nothing holds (frequency 0){}\n\n", more ? "at least " : "",
-                     plural(count, "rigid motion"), names);
+                     plural(count, "rigid motion"), names) +
+         places;
 }
 
 const std::vector<std::string> vibration_columns{"mode", "f [Hz]", "undamped [Hz]", "damping",
@@ -128,7 +140,7 @@ const std::vector<std::string> vibration_columns{"mode", "f [Hz]", "undamped [Hz
 std::vector<std::vector<std::string>> vibration_rows(const std::vector<ShownMotion>& modes) {
   std::vector<std::vector<std::string>> rows;
   for (const ShownMotion& m : modes) {
-    if (m.kind == "rigid") continue;
+    if (is_still(m)) continue;
     const bool oscillates = m.kind == "vibration" || m.kind == "unstable";
     rows.push_back({std::to_string(m.number),
                     oscillates ? fmt::format("{:.5g}", m.mode.damped()) : "0",
@@ -210,13 +222,14 @@ std::vector<ShownMotion> motions_of(const Model& model, const LinearSystem& syst
   for (const LinearMode& m : found) largest = std::max(largest, std::abs(m.lambda));
   if (most > 0 && found.size() > static_cast<std::size_t>(most))
     found.resize(static_cast<std::size_t>(most));
+  const HeldPlaces places(system);
   std::vector<ShownMotion> modes;
   int number = 0;
   for (const LinearMode& m : found) {
     const ModeParts parts = mode_parts(model, system, m);
-    ShownMotion shown{m, kind_of(m, largest), 0, kinetic_shares(model, parts),
+    ShownMotion shown{m, kind_of(m, largest, places), 0, kinetic_shares(model, parts),
                       potential_shares(model, parts)};
-    if (shown.kind != "rigid") shown.number = ++number;
+    if (!is_still(shown)) shown.number = ++number;
     modes.push_back(std::move(shown));
   }
   return modes;
@@ -245,7 +258,7 @@ std::vector<ShownMotion> motions_to_draw(const Model& model, const LinearSystem&
     out.push_back({{0.0, rigid.col(k)}, "rigid", 0, kinetic_shares(model, parts), {}});
   }
   for (const ShownMotion& m : modes)
-    if (m.kind != "rigid") out.push_back(m);
+    if (!is_still(m)) out.push_back(m);
   return out;
 }
 

@@ -98,7 +98,9 @@ class ElementSet {
             z_.weight(),
             links_.data(),
             at < 0 ? nullptr : &angles_[at],
-            z_.of(k) + model_.elements[k].states};
+            z_.of(k) + model_.elements[k].states,
+            nullptr,
+            z_.rest_slopes(k)};
   }
   ElementStates& element_states() noexcept { return z_; }
   const ElementStates& element_states() const noexcept { return z_; }
@@ -154,6 +156,11 @@ class ElementSet {
       if (e.start_states.size() == 0) sample_one(k, ports_at, 1e-6 * e.clock.period);
     }
     others();
+  }
+  /// The search for an equilibrium begins: deflections are zero here.
+  template <class PortsAt>
+  void begin_deflections(const PortsAt& ports_at) noexcept {
+    for (const std::size_t k : z_.elements()) z_.begin_deflection(k, ports_at(k));
   }
   /// Sampled elements at an instant: what begins to act, then what is computed, in the order of
   /// their signals.

@@ -17,8 +17,9 @@ ElementStates::ElementStates(const Model& model) : model_(model) {
     if (e.states + e.kept > 0) elements_.push_back(k);
     newton_.emplace_back(e.states);
   }
-  z_ = rates_ = drift_ = zero_ = VecX::Zero(count);
+  z_ = rates_ = drift_ = zero_ = rest_slopes_ = places_ = VecX::Zero(count);
   held_.assign(z_.size(), 0);
+  deflects_ = held_;
 }
 
 /// w z + z_hat - zdot at the present states; zero for those that are held.
@@ -38,6 +39,24 @@ void ElementStates::find_gap(std::size_t element, const Efforts& out, double* ga
 
 void ElementStates::release(std::size_t element) noexcept {
   for (int i = 0; i < model_.elements[element].states; ++i) held_[offsets_[element] + i] = false;
+}
+
+void ElementStates::begin_deflection(std::size_t element, const Ports& in) noexcept {
+  const auto deflection = element_kind(model_.elements[element].type).deflection;
+  if (!deflection) return;
+  const int at = offsets_[element];
+  places_[at] = deflection(in).place;
+  deflects_[at] = z_[at] == 0.0;
+  rest_slopes_[at] = 0.0;
+}
+
+void ElementStates::deflect(std::size_t element, const Ports& in) noexcept {
+  const int at = offsets_[element];
+  if (!follow_ || weight_ > 0.0 || !deflects_[at]) return;
+  const Deflection now = element_kind(model_.elements[element].type).deflection(in);
+  const double moved = now.place - places_[at];
+  z_[at] = std::clamp(moved, -now.largest, now.largest);  // (2)
+  rest_slopes_[at] = std::abs(moved) < now.largest ? 1.0 : 0.0;
 }
 
 void ElementStates::hold_drifting(std::size_t element, Eigen::Index row,
@@ -61,6 +80,7 @@ void ElementStates::solve(std::size_t element, const Ports& in, Efforts& out) no
   LocalNewton& newton = newton_[element];
   Eigen::Map<VecX> z(z_.data() + offsets_[element], n);
   release(element);
+  deflect(element, in);
   const bool solved = newton.solve(
       z,
       [&] {

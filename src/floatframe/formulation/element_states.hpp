@@ -5,7 +5,10 @@
 // is solved for the states of each element by a damped Newton iteration with the slopes of its law.
 // w, z_hat: those of a step (integrator/state_scheme.hpp); w = 0 = z_hat: at rest. A state that has
 // no equation at rest, since its rate is the same whatever the states of its element are, keeps its
-// value: a bristle that sticks, an integral. Its rate there is its drift.
+// value: an integral. Its rate there is its drift. A deflection (element_kind.hpp), of bristles
+// that stick, follows the positions at rest, from its place s_0 at the start of the search on:
+//   z = clamp(s - s_0, -z_s, z_s)                                                              (2)
+// One that is not zero there belongs to a contact that slides, and keeps its value.
 // Step time: no heap, noexcept.
 #include <cassert>
 #include <limits>
@@ -53,6 +56,17 @@ class ElementStates {
   }
   /// (1) at rest.
   void rest() noexcept { follow(0.0, zero_); }
+  /// At rest deflections are zero at these ports.
+  void begin_deflection(std::size_t element, const Ports& in) noexcept;
+  /// (2), if states follow at rest.
+  void deflect(std::size_t element, const Ports& in) noexcept;
+  bool deflects(std::size_t element) const noexcept {
+    return rest_slopes(element) && deflects_[offsets_[element]];
+  }
+  /// dz/ds of (2) of the states of an element; null: not at rest.
+  const double* rest_slopes(std::size_t element) const noexcept {
+    return follow_ && weight_ == 0.0 ? rest_slopes_.data() + offsets_[element] : nullptr;
+  }
   /// The rates of such states at the last evaluation at rest; zero for all others.
   const VecX& drift() const noexcept { return drift_; }
   /// The states that kept their values at that evaluation, by their places.
@@ -95,7 +109,9 @@ class ElementStates {
   std::vector<std::size_t> elements_;
   std::vector<LocalNewton> newton_;  ///< of each element
   VecX z_, rates_, drift_, zero_;
-  std::vector<char> held_;  ///< of each state, at rest
+  VecX rest_slopes_, places_;   ///< of (2): dz/ds, s_0
+  std::vector<char> deflects_;  ///< by (2)
+  std::vector<char> held_;      ///< of each state, at rest
   const VecX* z_hat_ = nullptr;
   double weight_ = 0.0;
   bool follow_ = false;

@@ -72,6 +72,10 @@ class Formulation {
   void start_element_states(StateStart of) noexcept {
     element_set_.start_states([this](std::size_t k) { return ports(k); }, of);
   }
+  /// At the start of a search for an equilibrium.
+  void begin_deflections() noexcept {
+    element_set_.begin_deflections([this](std::size_t k) { return ports(k); });
+  }
   void change_kept_states() noexcept {
     for (const std::size_t k : element_states().elements())
       element_states().after_step(k, ports(k));

@@ -20,6 +20,8 @@ class SignalRing {
   template <class PortsAt>
   void solve(const PortsAt& ports_at, ElementStates& z, std::vector<double>& links,
              std::vector<Efforts>& efforts) noexcept {
+    for (const Member& m : members_)
+      if (m.states > 0) z.deflect(m.element, ports_at(m.element));
     take(z);
     const bool solved = newton_.solve(
         y_,

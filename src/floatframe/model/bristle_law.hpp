@@ -56,15 +56,22 @@ S bristle_rate(const Bristles& b, const S& z, const S& v) noexcept {
                  ((value_of(z) > 0.0) == (value_of(v) > 0.0) ? 1.0 : -1.0);
 }
 
-/// df/dv with z following in the step of these ports, and d(zdot)/dz.
+/// zdot; at rest, where z follows the coordinate, what it follows of v.
+template <class S>
+S bristle_flow(const Bristles& b, const PortsOf<S>& in, const S& z, const S& v) noexcept {
+  return in.rest_slopes ? S(in.rest_slopes[0] * v) : bristle_rate(b, z, v);
+}
+
+/// df/ds at rest, df/dv with z following in the step of these ports, and d(zdot)/dz.
 struct BristleSlopes {
-  double of_speed, of_state;
+  double of_place = 0.0, of_speed = 0.0, of_state = 0.0;
 };
 inline BristleSlopes bristle_slopes(const Bristles& b, const Ports& in, double z,
                                     double v) noexcept {
+  if (in.rest_slopes) return {.of_place = b.stiffness * in.rest_slopes[0]};
   const Dual d = bristle_rate(b, Dual::variable(z, 0), Dual::variable(v, 1));
   const double f_z = d.d[0], f_v = d.d[1], z_v = f_v * in.followed(f_z);
-  return {b.stiffness * z_v + b.damping * (f_v + f_z * z_v), f_z};
+  return {.of_speed = b.stiffness * z_v + b.damping * (f_v + f_z * z_v), .of_state = f_z};
 }
 
 /// A contact that moves at a start slides: faster than this [m/s or rad/s].

@@ -144,6 +144,9 @@ struct PortsOf {
   const double* kept = nullptr;  ///< the kept numbers
   /// Of dual numbers: what the first direction is of each input; null: inputs are constant.
   const double* input_changes = nullptr;
+  /// At rest, where states follow deflections (`Deflection`): the slope of each state over that of
+  /// its element; null: not at rest.
+  const double* rest_slopes = nullptr;
 
   S input(std::size_t i) const noexcept {
     S value = inputs[i];

@@ -71,6 +71,12 @@ struct ElementExample {
  private:
   void link_signals();
 };
+/// What the only state of an element follows at rest: it is the change of `place` since the start,
+/// at most `largest` by size.
+struct Deflection {
+  double place = 0.0;  ///< [m] or [rad]
+  double largest = 0.0;
+};
 /// Fills `out`, which is clear on entry. The step calls it by name, without a pointer.
 template <ElementType type>
 void efforts_of(const Ports& in, Efforts& out) noexcept;
@@ -126,6 +132,11 @@ struct ElementKind {
   void (*start)(const Ports& in, double* states) noexcept = nullptr;
   /// Changes the kept numbers when the start is found, at which the ports are.
   void (*settle)(const Ports& in, double* states) noexcept = nullptr;
+  /// Of an element whose state is a deflection, as of bristles. Null: at rest states without an
+  /// equation keep their values.
+  Deflection (*deflection)(const Ports& in) noexcept = nullptr;
+  /// What such states, kept at zero, leave out of an equilibrium: "friction". Null: nothing.
+  const char* left_out_at_rest = nullptr;
   /// Changes the kept numbers at the end of a step, at which the ports are. Step time.
   void (*after_step)(const Ports& in, double* states) noexcept = nullptr;
   /// Of a sampled element (sampling.hpp): its values y at an instant, and its own kept numbers

@@ -28,8 +28,8 @@ std::vector<EnergyShare> largest_first(std::vector<EnergyShare> shares);
 /// A motion in the table and in the scene.
 struct ShownMotion {
   LinearMode mode;
-  std::string kind;                ///< "vibration", "rigid", "decay", "growth", "unstable"
-  int number = 0;                  ///< in the table; 0: a rigid motion
+  std::string kind;                ///< "vibration", "rigid", "held", "decay", "growth", "unstable"
+  int number = 0;                  ///< in the table; 0: its root is zero
   std::vector<EnergyShare> moves;  ///< shares of the kinetic energy, by body
   std::vector<EnergyShare> held;   ///< of the potential energy, by flexible body and force
 };

@@ -171,10 +171,18 @@ MatX ElementTangents::at_rest() const {
   const Eigen::Index nv = f_.velocities(), ns = K.rows() - nv;
   if (ns == 0) return K;
   MatX slopes = K.bottomRightCorner(ns, ns), follow = K.bottomLeftCorner(ns, nv);
-  for (Eigen::Index i = 0; i < ns; ++i) {
-    if (!slopes.row(i).isZero(0.0)) continue;
+  const auto hold = [&](Eigen::Index i) {
+    if (!slopes.row(i).isZero(0.0)) return;
     slopes(i, i) = 1.0;
     follow.row(i).setZero();
+  };
+  Eigen::Index at = 0;
+  for (std::size_t k = 0; k < f_.model().elements.size(); ++k) {
+    const int states = f_.model().elements[k].states;
+    for (int i = 0; i < states; ++i) hold(at + i);
+    // Their rates are dz/ds times that of the place (Deflection).
+    if (states > 0 && f_.element_states().deflects(k)) follow.row(at) = C.row(nv + at).head(nv);
+    at += states;
   }
   return K.topLeftCorner(nv, nv) - K.topRightCorner(nv, ns) * lu_solve(slopes, follow);
 }

@@ -29,8 +29,8 @@ class ElementTangents {
 
   MatX K, C;           ///< nv + ns; parts of dr/dx and dr/dv
   bool exact = false;  ///< the efforts are held
-  /// K of the coordinates alone, with states that follow at rest; those without an equation there
-  /// are constant.
+  /// K of the coordinates alone, with states that follow at rest, deflections their places; others
+  /// without an equation there are constant.
   MatX at_rest() const;
 
  private:

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "floatframe/core/work_progress.hpp"
+#include "floatframe/integrator/load_iteration.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/sampling.hpp"
 #include "floatframe/start/statics_equations.hpp"
@@ -213,18 +214,54 @@ Best search(RelativeFormulation& f, StaticsEquations& statics, const VecX& q, in
   return best;
 }
 
+/// The loads of friction from reactions at q, as if everything were held there.
+void begin_loads(RelativeFormulation& f, StaticsEquations& statics, const VecX& q,
+                 LoadIteration<RelativeFormulation>& loads) {
+  VecX lambda = VecX::Zero(f.constraints());
+  const VecX r = statics.evaluate(q, lambda);
+  if (lambda.size() > 0) {
+    lambda = LeastNorm(MatX(f.constraint_jacobian().transpose())).solve(VecX(-r));
+    statics.evaluate(q, lambda);
+  }
+  loads.begin();
+  loads.iterate(f, VecX::Zero(f.velocities()), lambda);
+}
+
+/// The loads of an equilibrium and the equilibrium with these loads, in turn.
+void follow_loads(RelativeFormulation& f, StaticsEquations& statics,
+                  LoadIteration<RelativeFormulation>& loads, int& iterations, Best& best) {
+  constexpr int most_rounds = 50;
+  constexpr double enough = 1e-10, most_left = 1e-6;
+  const VecX none = VecX::Zero(f.velocities());
+  loads.begin();
+  for (int round = 0; round < most_rounds && best.accepted(); ++round) {
+    statics.evaluate(best.q, best.lambda);
+    loads.iterate(f, none, best.lambda);
+    best = search(f, statics, best.q, iterations);
+    if (loads.change() < enough) return;
+  }
+  if (best.accepted() && loads.change() > most_left)
+    throw RunError(ErrorCode::no_equilibrium,
+                   "no static equilibrium found: the friction from reactions grows with itself: "
+                   "the mechanism jams; make friction or the angles of pressure smaller");
+}
+
 }  // namespace
 
 Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
   check_size(f);
+  kinematics_at(f, 0.0, q, VecX::Zero(f.velocities()));
+  f.begin_deflections();
   const RestingStates resting(f, true);
   Equilibrium e;
   e.lambda = VecX::Zero(f.constraints());
-  const VecX start_q = q, start_z = f.element_states().values();
   StaticsEquations statics(f);
   const VecX first = statics.evaluate(q, e.lambda);
   require_laws(f, 0.0);
   check_magnitudes(first, [&](int i) { return f.coordinate_owner(i); });
+  LoadIteration<RelativeFormulation> loads(f);
+  if (loads.needed()) begin_loads(f, statics, q, loads);
+  const VecX start_q = q, start_z = f.element_states().values();
   const bool held = hold_resting_branches(f, true);
   Best best = search(f, statics, q, e.iterations);
   if (held) {
@@ -235,6 +272,7 @@ Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
       best = search(f, statics, q, e.iterations);
     }
   }
+  if (loads.needed()) follow_loads(f, statics, loads, e.iterations, best);
   q = best.q;
   e.lambda = best.lambda;
   const auto evaluate = [&](const VecX& at) { return statics.evaluate(at, e.lambda); };
@@ -269,6 +307,9 @@ std::vector<std::string> equilibrium_notes(RelativeFormulation& f) {
                     [](const FormulaOperand& x) { return x.kind == FormulaOperand::Kind::sample; }))
       notes.push_back(element_name(elements[k]) +
                       " reads results of the end of a step, which are zero in the equilibrium");
+    const char* left_out = element_kind(elements[k].type).left_out_at_rest;
+    if (left_out && elements[k].states > 0 && *f.element_states().of(k) == 0.0)
+      notes.push_back(element_name(elements[k]) + " is in the equilibrium without its " + left_out);
   }
   if (std::string held = held_samples_note(f.model()); !held.empty())
     notes.push_back(std::move(held));

@@ -6,6 +6,7 @@
 // kept number, constant in the derivatives of the law.
 // z is measured along the coordinate.
 //   row          c = N f_v + viscous, f_v with z following
+// At rest z follows the coordinate from where it was: k = N sigma_0 while it sticks, 0 beyond.
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/model/bristle_law.hpp"
 #include "floatframe/model/element_kind.hpp"
@@ -39,15 +40,16 @@ void bristle_friction_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
   const bool clamped = in.element.signals[0].given;
   const S normal = normal_of_bristles(keys, in);
   const Bristles bristles = bristles_of(keys);
-  const S z = in.state(0), v = m.rate, flow = bristle_rate(bristles, z, v);
+  const S z = in.state(0), v = m.rate, flow = bristle_flow(bristles, in, z, v);
   out.state_rates[0] = flow;
-  double slope = 0.0;
+  double slope = 0.0, of_place = 0.0;
   if constexpr (std::is_same_v<S, double>) {
     const BristleSlopes of = bristle_slopes(bristles, in, z, v);
     out.state_slopes[0] = of.of_state;
     slope = value_of(normal) * of.of_speed + keys.viscous;
+    of_place = value_of(normal) * of.of_place;
   }
-  pull_back(m, S(normal * S(keys.stiffness * z + keys.damping * flow) + keys.viscous * v), 0.0,
+  pull_back(m, S(normal * S(keys.stiffness * z + keys.damping * flow) + keys.viscous * v), of_place,
             slope, out);
   // What a normal force that varies stores in the bristles counts as dissipated.
   if (!clamped && !keys.reaction) {
@@ -193,6 +195,11 @@ void bristle_friction_start(const Ports& in, double* states) noexcept {
                             coordinate_measure(in, in.data<MeasuredCoordinate>()).rate);
 }
 
+Deflection deflection_of_bristles(const Ports& in) noexcept {
+  return {coordinate_measure(in, in.data<MeasuredCoordinate>()).s,
+          largest_deflection(bristles_of(in.keys<BristleFriction>()), 0.0)};
+}
+
 std::string bristle_friction_linear_note(const Element& element) {
   if (element.load.joint < 0) return "";
   return element_name(element) +
@@ -253,6 +260,7 @@ constinit const ElementKind bristle_friction_element = {
     .build = bristle_friction_build,
     .states = bristle_friction_states,
     .start = bristle_friction_start,
+    .deflection = deflection_of_bristles,
     .dual = bristle_friction_law<Dual>,
     .picture = picture_of_coordinate,
     .linear_note = bristle_friction_linear_note,

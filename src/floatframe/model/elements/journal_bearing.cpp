@@ -79,7 +79,7 @@ void journal_bearing_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
   S rub = 0.0;
   double rubs = 0.0;  // slope of the friction over the sliding
   if (bristles > 0) {
-    const S z = in.state(0), flow = bristle_rate(data.bristles, z, m.sliding);
+    const S z = in.state(0), flow = bristle_flow(data.bristles, in, z, m.sliding);
     out.state_rates[0] = flow;
     rub = push * S(data.bristles.stiffness * z + data.bristles.damping * flow);
     if constexpr (std::is_same_v<S, double>) {
@@ -277,6 +277,7 @@ constinit const ElementKind journal_bearing_element = {
       return {"force", "friction_torque"};
     },
     .start = journal_bearing_start,
+    .left_out_at_rest = "friction",
     .after_step = keep_journal_speed,
     .contact = true,
     .dual = journal_bearing_law<Dual>,
