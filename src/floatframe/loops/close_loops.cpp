@@ -14,6 +14,7 @@
 #include "floatframe/loops/redundancy.hpp"
 #include "floatframe/loops/run_error.hpp"
 #include "floatframe/math/dense.hpp"
+#include "floatframe/model/cam_faults.hpp"
 #include "floatframe/model/joint_measure.hpp"
 
 namespace floatframe {
@@ -79,12 +80,27 @@ double close_from(RelativeFormulation& f, VecX& q, const VecX& v, double t) {
   return largest(f.constraint_values());
 }
 
+/// Why a cam has no lift at these positions; empty: all have one.
+std::string lost_lift(RelativeFormulation& f, double t, const VecX& q) {
+  if (!has_lift_formulas(f.model())) return {};
+  kinematics_at(f, t, q, VecX::Zero(f.velocities()));
+  for (std::size_t k = 0; k < f.model().elements.size(); ++k)
+    if (std::string why = lift_complaint(f.ports(k), false); !why.empty()) return why;
+  return {};
+}
+
+void require_lifts(RelativeFormulation& f, double t, const VecX& q, const char* where) {
+  if (const std::string why = lost_lift(f, t, q); !why.empty())
+    throw RunError(ErrorCode::not_assembled,
+                   fmt::format("the model cannot be assembled: {}, {}", why, where));
+}
+
 /// Closes the positions with the start values of the model. Returns false, with q at the end of the
 /// path, if they cannot be reached.
-bool close_to_values(const RelativeFormulation& f, LoopPath& path, VecX& q, bool keeps) {
+bool close_to_values(RelativeFormulation& f, LoopPath& path, VecX& q, bool keeps, double t) {
   if (path.starts_as_drawn() && path.closes(q)) return true;
   const VecX drawn = path.drawn(), given = q;
-  const bool all_given = path.all_given();
+  const bool all_given = path.all_given(), from_drawn = lost_lift(f, t, drawn).empty();
   const std::vector<bool> elastic = f.tree().elastic_coordinates();
   const bool has_modes = std::find(elastic.begin(), elastic.end(), true) != elastic.end();
   if (all_given && path.closed(q) && path.upright(q)) return true;
@@ -93,11 +109,13 @@ bool close_to_values(const RelativeFormulation& f, LoopPath& path, VecX& q, bool
     return true;
   for (const LoopMoves moves : {LoopMoves::joints, LoopMoves::modes, LoopMoves::values}) {
     if (moves == LoopMoves::modes && !has_modes) continue;
-    if (moves == LoopMoves::values && !path.contradictory(drawn)) break;
-    q = drawn;
-    if (path.follow(q, moves, keeps)) return true;
-    // A model that cannot be closed as drawn may close with the given values.
-    if (path.drawn_closes()) continue;
+    if (moves == LoopMoves::values && !path.contradictory(from_drawn ? drawn : given)) break;
+    if (from_drawn) {
+      q = drawn;
+      if (path.follow(q, moves, keeps)) return true;
+      // A model that cannot be closed as drawn may close with the given values.
+      if (path.drawn_closes()) continue;
+    }
     q = given;
     if (path.correct(q, moves, keeps) && path.upright(q)) return true;
   }
@@ -146,7 +164,8 @@ double close_rates(RelativeFormulation& f, const VecX& q, VecX& v, bool keeps, d
 /// The part whose row has the largest magnitude.
 std::size_t worst_part(const ConstraintSet& constraints, const VecX& r) {
   Eigen::Index row = 0;
-  r.cwiseAbs().maxCoeff(&row);
+  while (row < r.size() && std::isfinite(r[row])) ++row;  // that without a value
+  if (row == r.size()) r.cwiseAbs().maxCoeff(&row);
   return constraints.part_of_row(static_cast<int>(row));
 }
 
@@ -199,9 +218,12 @@ std::string motions_text(RelativeFormulation& f, const VecX& residual, bool rate
 /// change of the coordinates reduces: "joint 'd' has a gap of 0.3 m", or that prescribed motions
 /// contradict each other or, for rates, the constraints.
 std::string open_loops_text(RelativeFormulation& f, const VecX& residual, bool rates) {
-  if (std::string text = motions_text(f, residual, rates); !text.empty()) return text;
+  if (std::string text = residual.allFinite() ? motions_text(f, residual, rates) : "";
+      !text.empty())
+    return text;
   const ConstraintSet& constraints = f.constraint_set();
   const ConstraintPart& part = constraints.parts()[worst_part(constraints, residual)];
+  if (!residual.allFinite()) return owner_name(f.model(), part.owner) + " has no value";
   return fmt::format(
       "{} {} {:.3g} {}", owner_name(f.model(), part.owner), rates ? "opens at" : "has a gap of",
       in_unit(part, residual.lpNorm<Eigen::Infinity>()), unit_of(f.model(), part, rates));
@@ -235,23 +257,27 @@ void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool correct_position
   if (correct_positions) {
     constexpr double closed = 1e-10;
     LoopPath path(f, t);
-    if (as_given && path.any_loops() && !close_to_values(f, path, q, true)) {
+    if (as_given && path.any_loops() && !close_to_values(f, path, q, true, t)) {
+      require_lifts(f, t, q_start, "with the start values");
+
       const std::string way =
           fmt::format("from the drawn configuration the start values are reached to {:.3g} %",
                       100.0 * path.reached());
       const VecX open = path.gap(q);
       const std::string gap =
           open.size() > 0 ? open_loops_text(f, open, false) : "start values contradict each other";
-      if (!kept_positions.empty() && close_to_values(f, path, q = q_start, false))
+      if (!kept_positions.empty() && close_to_values(f, path, q = q_start, false, t))
         throw RunError(ErrorCode::not_assembled,
                        fmt::format("the model cannot be assembled while {}: {} at the start ({}); "
                                    "the loops close if these values may move",
                                    kept_positions, gap, way));
+      require_lifts(f, t, path.drawn(), "as drawn");
       throw RunError(ErrorCode::not_assembled,
                      fmt::format("the model cannot be assembled: {} at the start ({}){}", gap, way,
                                  locked_text(f.model())));
     }
     const double violation = close_from(f, q, v, t);
+    require_lifts(f, t, q, "at the start");
     if (!(violation < closed))
       throw RunError(ErrorCode::not_assembled,
                      fmt::format("the model cannot be assembled: {} at the start",

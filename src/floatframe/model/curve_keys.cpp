@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
+
+#include "floatframe/model/curve_faults.hpp"
 
 namespace floatframe {
 
@@ -64,6 +67,18 @@ std::optional<SpaceCurve> build_curve(ElementBuild& build, const PointOnCurve& k
                               gap));
       return std::nullopt;
     }
+  }
+  if (keys.points.rows() > 0) return curve;
+  if (const auto gap = curve_gap(curve)) {
+    build.error(ErrorCode::geometry,
+                std::isinf(gap->size)
+                    ? fmt::format("found a curve without a place at u = {:.6g}, expected one that "
+                                  "has no end within its range",
+                                  gap->at)
+                    : fmt::format("found a gap of {:.3g} m in the curve at u = {:.6g}, expected "
+                                  "none within its range",
+                                  gap->size, gap->at));
+    return std::nullopt;
   }
   return curve;
 }

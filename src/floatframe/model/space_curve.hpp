@@ -80,6 +80,7 @@ class SpaceCurve {
   double slowest() const;
   /// The direction a.
   const Vec3& across() const noexcept { return normal_; }
+  bool closed() const noexcept { return closed_; }
 
  private:
   void choose_normal();

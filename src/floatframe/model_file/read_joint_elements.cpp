@@ -1,7 +1,10 @@
 // Elements on coordinates of a joint that its own keys describe: stops, friction. Of a joint with
 // one coordinate the key holds the keys of the element, of others a map of coordinates to these.
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "floatframe/core/number_rule.hpp"
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/joint_kind.hpp"
@@ -29,6 +32,41 @@ std::string joint_element_name(const std::string& joint, JointType type, int com
   std::string coordinate = joint_coordinate_key(type, component);
   std::replace(coordinate.begin(), coordinate.end(), ' ', '_');
   return joint + "." + coordinate + "." + key;
+}
+
+/// The keys of the element where coordinates are expected, or a coordinate where its keys are;
+/// false after an error.
+bool has_expected_level(const YamlValue& value, ElementType element, JointType type) {
+  const auto holds = [&](const std::string& key) {
+    return std::ranges::any_of(value.node().entries,
+                               [&](const YamlEntry& e) { return e.key == key; });
+  };
+  if (!value.is_map()) return true;
+  if (joint_has_one_coordinate(type)) {
+    const std::string key = joint_coordinate_key(type, 0);
+    if (!holds(key)) return true;
+    value.error(ErrorCode::unknown_key,
+                fmt::format("found the coordinate '{}', expected the keys themselves: a {} joint "
+                            "has one coordinate",
+                            key, joint_type_name(type)));
+    return false;
+  }
+  std::vector<std::string> coordinates;
+  for (int k = 0; k < joint_velocities(type); ++k) {
+    if (holds(joint_coordinate_key(type, k))) return true;
+    if (!is_of_rotation_vector(type, k)) coordinates.push_back(joint_coordinate_key(type, k));
+  }
+  std::vector<const char*> words;
+  for (const std::string& key : coordinates) words.push_back(key.c_str());
+  for (const ElementKey& key : element_keys(element))
+    if (!words.empty() && holds(key.name)) {
+      value.error(ErrorCode::unknown_key,
+                  fmt::format("found the key '{}', expected a map of coordinates of a {} joint to "
+                              "such keys: {}",
+                              key.name, joint_type_name(type), alternatives(words)));
+      return false;
+    }
+  return true;
 }
 
 }  // namespace
@@ -73,6 +111,8 @@ void read_joint_elements(const ModelInstance& self, const std::string& joint, Jo
     if (!value) continue;
     if (joint_velocities(type) == 0) {
       value->error(ErrorCode::wrong_value, sentences::not_used_by_joint(joint_type_name(type)));
+    } else if (!has_expected_level(*value, element, type)) {
+      continue;
     } else if (joint_has_one_coordinate(type)) {
       if (auto own = value->section()) add(*own, 0);
     } else if (auto of = value->section("a map of coordinates to maps of keys")) {

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "floatframe/core/text_pieces.hpp"
 #include "floatframe/model/element_evaluation.hpp"
+#include "floatframe/model/element_keys.hpp"
 #include "floatframe/model/output_kind.hpp"
 #include "floatframe/run/run.hpp"
 
@@ -25,6 +27,18 @@ std::string named(const Verification& v, const Chosen& chosen) {
   return (names.size() == 1 ? "output " : "outputs ") + names_text(names, 4);
 }
 
+/// It rubs, or may do so: a formula, a program, a damper whose law has corners.
+bool may_rub(const Element& e) {
+  if (e.laws.size() == 2 && !e.laws[1].edges().empty()) return true;  // of its rate
+  if (std::ranges::any_of(e.signals, [](const Signal& s) { return s.local != nullptr; }))
+    return true;
+  return std::ranges::any_of(element_keys(e.type), [](const ElementKey& key) {
+    const std::string_view name = key.name;
+    return name == "kinetic" || name == "breakaway" || key.kind == KeyKind::formula ||
+           key.kind == KeyKind::function;
+  });
+}
+
 /// `converges`: slowly, but it does.
 std::string likely_causes(const Model& model, const SimulationDescription& o, bool converges) {
   if (model.elements.empty())
@@ -34,7 +48,11 @@ std::string likely_causes(const Model& model, const SimulationDescription& o, bo
   if (!o.locate_edges && std::any_of(model.elements.begin(), model.elements.end(),
                                      [](const Element& e) { return has_branches(e); }))
     text += "corners and jumps of forces within steps (locate_edges: true divides steps there), ";
-  return text + "friction, tables that steps sample, or a step that is long for the fastest motion";
+  if (std::ranges::any_of(model.elements, may_rub))
+    text += "friction, ";
+  else if (std::ranges::any_of(model.elements, [](const Element& e) { return has_branches(e); }))
+    text += "contacts, ";
+  return text + "tables that steps sample, or a step that is long for the fastest motion";
 }
 
 void add_low_orders(const std::string& causes, Verification& v) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "floatframe/loops/redundancy.hpp"
+#include "floatframe/model/cam_faults.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/start/light_motion.hpp"
 #include "floatframe/start/overflow.hpp"
@@ -21,6 +22,13 @@ std::string lost_masses(const SystemMotion& motion) {
   return {};
 }
 
+/// Of the first cam that comes to an end of its lift.
+std::string lost_lift_text(const Formulation& f) {
+  for (std::size_t k = 0; k < f.model().elements.size(); ++k)
+    if (std::string why = lift_complaint(f.ports(k), true); !why.empty()) return why;
+  return {};
+}
+
 }  // namespace
 
 std::string Stepper::failure() {
@@ -29,6 +37,9 @@ std::string Stepper::failure() {
   std::string text = step_failure();  // first: refers to the failed iteration
   if (std::string numbers = overflow(); !numbers.empty()) text = std::move(numbers);
   kinematics_at(f_, state_);
+  if (const std::string lift = lost_lift_text(f_); !lift.empty())
+    return fmt::format("step failed at t = {:.6g} s after substeps down to {:.3g} s: {}", state_.t,
+                       smallest(), lift);
   const std::string lost = lost_masses(f_.motion());
   return text + (lost.empty() ? light_motion_note(f_, state_) : "; " + lost);
 }

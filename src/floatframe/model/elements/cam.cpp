@@ -12,6 +12,7 @@
 #include <numbers>
 
 #include "floatframe/math/so3.hpp"
+#include "floatframe/model/cam_faults.hpp"
 #include "floatframe/model/cam_profile.hpp"
 #include "floatframe/model/coupled_coordinates.hpp"
 #include "floatframe/model/element_data.hpp"
@@ -135,8 +136,18 @@ void cam_validate(const ElementCheck& check) {
 bool cam_build(ElementBuild& build) {
   if (!connect_coupled(build, "follower") || !connect_coupled(build, "cam")) return false;
   const Cam& keys = build.keys<Cam>();
-  build.element.data =
-      std::make_shared<CamProfile>(cam_profile(keys, build.element.coordinates[1].counted));
+  const CoordinatePort& port = build.element.coordinates[1];
+  CamProfile profile = cam_profile(keys, port.counted);
+  const Joint* joint = build.joint(keys.cam.joint);
+  const double start = joint->position.empty() ? 0.0 : joint->position[port.component];
+  if (const auto jump = lift_corners(profile, port.counted, keys.cam.factor * start).jump) {
+    build.error(ErrorCode::contradiction,
+                fmt::format("found a jump by {:.6g} at x = {:.9g} in '{}', expected a lift without "
+                            "jumps: a follower cannot jump",
+                            jump->size, jump->at, profile.formula->text));
+    return false;
+  }
+  build.element.data = std::make_shared<CamProfile>(std::move(profile));
   return true;
 }
 

@@ -48,7 +48,7 @@ void coupling_validate(const ElementCheck& check) {
             fmt::format("found no coordinate of {}, expected {}", joint, coordinate_names(*type)));
     else if (term.factor == 0.0)
       error(ErrorCode::out_of_range,
-            fmt::format("found the factor 0 of {}, expected another number", joint));
+            fmt::format("found the factor 0 of {}, expected a number other than 0", joint));
     else if (const int k = std::max(0, term.coordinate); !taken.insert({term.joint, k}).second)
       error(ErrorCode::duplicate, fmt::format("found the {} of {} twice, expected it once",
                                               joint_coordinate_name(*type, k), joint));

@@ -130,6 +130,8 @@ void gear_validate(const ElementCheck& check) {
   if (check.has("pressure_angle") || check.wrong.contains("pressure_angle")) return;
   if (check.good("helix_angle") && check.number("helix_angle") != 0.0)
     check.error(ErrorCode::incomplete, "helix_angle", "needs 'pressure_angle'");
+  if (check.good("flank") && std::get<Gear>(check.description().kind).flank == GearFlank::backward)
+    check.error(ErrorCode::incomplete, "flank", "needs 'pressure_angle'");
 }
 
 /// (2), (3). False after an error.

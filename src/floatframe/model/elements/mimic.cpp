@@ -29,7 +29,7 @@ constexpr ElementKey mimic_keys[] = {
 void mimic_validate(const ElementCheck& check) {
   validate_coordinates(check);
   if (check.good("factor") && check.number("factor") == 0.0)
-    check.error(ErrorCode::out_of_range, "factor", "found 0, expected another number");
+    check.error(ErrorCode::out_of_range, "factor", "found 0, expected a number other than 0");
 }
 
 bool mimic_build(ElementBuild& build) {

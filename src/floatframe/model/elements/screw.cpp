@@ -40,7 +40,7 @@ void screw_validate(const ElementCheck& check) {
                 joint ? "excludes 'translation' and 'rotation'; remove it or both"
                       : "found no 'joint', expected it or both of 'translation' and 'rotation'");
   if (check.good("lead") && check.number("lead") == 0.0)
-    check.error(ErrorCode::out_of_range, "lead", "found 0, expected another number [m]");
+    check.error(ErrorCode::out_of_range, "lead", "found 0, expected a number other than 0 [m]");
   if (!validate_coordinates(check) || !joint) return;
   const std::string name = check.coordinate("joint").joint;
   const auto type = check.joint_type(name);

@@ -1,0 +1,105 @@
+// Notes about cams and curves: corners, profiles that nearly fill a turn, curves that cross
+// themselves, points that are not drawn on their curve.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "floatframe/model/cam_faults.hpp"
+#include "floatframe/model/curve_contact.hpp"
+#include "floatframe/model/curve_faults.hpp"
+#include "floatframe/model/element_kind.hpp"
+#include "floatframe/model/hint_list.hpp"
+#include "floatframe/model/loop_mobility.hpp"
+
+namespace floatframe {
+
+namespace {
+
+/// "", " (and 1 more corner)", " (and 3 more corners)"
+std::string more_corners(std::size_t count) {
+  if (count < 2) return {};
+  return fmt::format(" (and {} more corner{})", count - 1, count > 2 ? "s" : "");
+}
+
+void hint_at_cam(const Model& model, const Element& e, HintList& out) {
+  const CamProfile& profile = *static_cast<const CamProfile*>(e.data.get());
+  const Cam& keys = *std::get_if<Cam>(e.keys.get());
+  const CoordinatePort& port = e.coordinates[1];
+  constexpr double turn = 2.0 * std::numbers::pi;
+  if (!profile.formula && port.counted && profile.period == 0.0) {
+    const double span = profile.spline
+                            ? profile.pieces.breaks().back() - profile.pieces.breaks().front()
+                            : profile.ends.back() - profile.ends.front();
+    if (std::abs(span - turn) < 0.02 * turn)
+      out.add("cam", e.name,
+              fmt::format("its {} span {:.10g} rad, which is nearly a turn but not 2 pi = "
+                          "6.283185307179586: the lift does not repeat, and goes on {} beyond them",
+                          profile.spline ? "points" : "segments", span,
+                          profile.spline ? "along its tangents" : "at its last value"));
+  }
+  if (!profile.formula) return;
+  const std::vector<double>& position = model.joints[port.joint].position;
+  const double start = position.empty() ? 0.0 : keys.cam.factor * position[port.component];
+  const FormulaCorners corners = lift_corners(profile, port.counted, start);
+  if (corners.slope)
+    out.add("cam", e.name,
+            fmt::format("its lift '{}' has a corner at x = {:.6g}, where its slope changes by "
+                        "{:.3g}{}: a follower that comes there gets an impulse, and results are of "
+                        "first order in the step; round it",
+                        profile.formula->text, corners.slope->at, corners.slope->size,
+                        more_corners(corners.slopes)));
+  else if (const auto bend = lift_bend(profile, port.counted, start))
+    out.add("cam", e.name,
+            fmt::format("the slope of its lift '{}' has a corner at x = {:.6g}: the acceleration "
+                        "of the follower jumps there, where no step ends, and results are of first "
+                        "order in the step",
+                        profile.formula->text, *bend));
+}
+
+void hint_at_curve(const std::string& name, const SpaceCurve& curve, HintList& out) {
+  const CurveCorners corners = curve_corners(curve);
+  if (corners.count > 0)
+    out.add("constraint", name,
+            fmt::format("its curve has a corner at u = {:.6g}, where its tangent turns by {:.3g} "
+                        "degrees{}: a point that comes there gets an impulse, and results are of "
+                        "first order in the step; round it",
+                        corners.at, corners.angle * 180.0 / std::numbers::pi,
+                        more_corners(corners.count)));
+  if (const auto crossing = curve_crossing(curve))
+    out.add("constraint", name,
+            fmt::format("its curve crosses or meets itself at u = {:.6g} and {:.6g}: where the "
+                        "nearer branch holds, a point may change from one to the other",
+                        crossing->u, crossing->w));
+}
+
+/// A point that the start moves onto its curve.
+void hint_at_point(const Model& model, const Element& e, const SpaceCurve& curve, HintList& out) {
+  constexpr double noticeable = 1e-6;
+  const Pose a = design_pose(model, e.markers[0]), b = design_pose(model, e.markers[1]);
+  const double off = curve.foot(a.R.transpose() * (b.p - a.p)).e.norm();
+  if (off > noticeable)
+    out.add(
+        "constraint", e.name,
+        fmt::format("its point is drawn {:.3g} m from its curve: the start moves it there", off));
+}
+
+}  // namespace
+
+void hint_at_curves(const Model& model, HintList& out) {
+  for (const Element& e : model.elements) {
+    if (!e.data) continue;
+    if (e.type == ElementType::cam) hint_at_cam(model, e, out);
+    if (e.type == ElementType::point_on_curve) {
+      const auto& curve = *static_cast<const SpaceCurve*>(e.data.get());
+      hint_at_curve(e.name, curve, out);
+      hint_at_point(model, e, curve, out);
+    }
+    if (e.type == ElementType::curve_on_curve) {
+      const auto& contact = *static_cast<const CurveContact*>(e.data.get());
+      for (const bool second : {false, true}) hint_at_curve(e.name, contact.curve(second), out);
+    }
+  }
+}
+
+}  // namespace floatframe
