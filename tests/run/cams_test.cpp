@@ -9,7 +9,9 @@
 
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/model/cam_profile.hpp"
+#include "floatframe/run/run.hpp"
 #include "support/completed_run.hpp"
+#include "support/figures.hpp"
 #include "support/model_text.hpp"
 
 namespace floatframe::test {
@@ -230,6 +232,57 @@ simulation: {step: 1.0e-3, duration: 1}
     EXPECT_NEAR(r.table.at(end, 1), 0.5 * a, 1e-6);
     EXPECT_NEAR(r.table.at(end, 2), 9.81 + 0.5 * a, 1e-8);
     EXPECT_EQ(r.table.columns[2].unit, "N");
+  }
+}
+
+/// A follower of 1 kg on a free cam.
+std::string free_cam(const std::string& lift, const std::string& start) {
+  return fmt::format(R"(
+bodies:
+  shaft: {{position: [0, 0, 0], rigid: {{mass: 1, inertia: [0.01, 0.01, 0.01]}}}}
+  valve: {{position: [0, 0, 1], rigid: {{mass: 1, inertia: [0.01, 0.01, 0.01]}}}}
+joints:
+  shaft: {{type: revolute, child: shaft, at: [0, 0, 0], axis: y, {}}}
+  valve: {{type: prismatic, child: valve, at: [0, 0, 1], axis: z}}
+couplings: {{cam: {{type: cam, follower: valve, cam: shaft, formula: {}}}}}
+outputs: {{s: {{joint_position: valve}}}}
+simulation: {{step: 1.0e-3, duration: 1}}
+)",
+                     start, lift);
+}
+
+// As drawn, at x = 0, the lift has no value or no slope: the start is found from the given values.
+TEST(EndsOfLifts, StartsBesideThem) {
+  struct Start {
+    const char* lift;
+    double s;
+  };
+  for (const Start& c : {Start{"sqrt(x)", std::sqrt(0.5)}, {"log(x)", std::log(0.5)}}) {
+    ModelDescription d = description_of(free_cam(c.lift, "position: 0.5, velocity: 1, keep: true"));
+    d.simulation.duration = 0.01;
+    EXPECT_NEAR(completed_run(d).table.at(0, 1), c.s, 1e-9) << c.lift;
+  }
+}
+
+TEST(EndsOfLifts, AreNamedWhereAStartOrAStepFails) {
+  for (const Coordinates c : both_coordinates) {
+    const auto said = [&](const std::string& text) {
+      ModelDescription d = description_of(text);
+      d.simulation.coordinates = c;
+      const Model model = build_model(d);
+      return message_of<RunError>([&] { run(model, model.simulation); });
+    };
+    expect_in(said(free_cam("sqrt(x)", "velocity: 3")),
+              "the model cannot be assembled: cam 'cam': its lift 'sqrt(x)' has a slope without "
+              "bound at x = 0, at the start");
+    const ModelDescription into =
+        description_of(free_cam("sqrt(x)", "position: 0.5, velocity: -3, keep: true"));
+    const Model model = build_model(into);
+    SimulationDescription o = model.simulation;
+    o.coordinates = c;
+    const RunResult r = run(model, o);
+    EXPECT_EQ(r.summary.status, "failed");
+    expect_in(r.summary.message, ": cam 'cam': its lift 'sqrt(x)' ");
   }
 }
 

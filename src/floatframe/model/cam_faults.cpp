@@ -74,18 +74,22 @@ std::optional<double> lift_bend(const CamProfile& profile, bool turns, double co
   if (!profile.formula || profile.formula->kinks.empty()) return std::nullopt;
   const Formula& f = *profile.formula;
   const double x = coordinate - profile.phase;
-  constexpr double noticeable = 1e-3, rounding = 1e-6;
+  constexpr double noticeable = 1e-3, rounding = 1e-6;  // of the largest s'', of the slope
   for (const double reach : reaches_of_lift(turns)) {
     const double step = 2.0 * reach / intervals_of_lift;
+    double most = 0.0;
+    std::vector<double> places;
     for (double from = x - reach; from < x + reach; from += step) {
-      const double at = piece_change(f, from, from + step);
-      if (!(at <= from + step)) continue;
+      if (const double bend = std::abs(formula_at(f, from).ddf); std::isfinite(bend))
+        most = std::max(most, bend);
+      if (const double at = piece_change(f, from, from + step); at <= from + step)
+        places.push_back(at);
+    }
+    for (const double at : places) {
       const double side = 1e-9 * (1.0 + std::abs(at));
       const PiecewisePolynomial::Value a = formula_at(f, at - side), b = formula_at(f, at + side);
       const double bend = std::abs(b.ddf - a.ddf);
-      if (bend > noticeable * std::max(std::abs(a.ddf), std::abs(b.ddf)) &&
-          std::abs(b.df - a.df) <= rounding * (1.0 + bend))
-        return at;
+      if (bend > noticeable * most && std::abs(b.df - a.df) <= rounding * (1.0 + bend)) return at;
     }
   }
   return std::nullopt;
@@ -102,6 +106,23 @@ std::optional<double> lift_end(const CamProfile& profile, double x, double reach
       if (const auto gap = gap_between(std::min(p, q), std::max(p, q), 1e-6, at)) return gap->at;
     }
   return std::nullopt;
+}
+
+void keep_from_ends(CamProfile& profile, double x) {
+  if (!profile.formula || !(x > profile.low && x < profile.high)) return;
+  constexpr double part = 0.9;
+  constexpr int intervals = 1000;
+  const auto at = [&](double u) { return point_of_lift(profile, u); };
+  for (double* end : {&profile.low, &profile.high}) {
+    const double step = (*end - x) / intervals;
+    for (int k = 0; k < intervals; ++k) {
+      const double p = x + step * k, q = x + step * (k + 1);
+      const auto gap = gap_between(std::min(p, q), std::max(p, q), 1e-6, at);
+      if (!gap) continue;
+      *end = x + part * (gap->at - x);
+      break;
+    }
+  }
 }
 
 bool has_lift_formulas(const Model& model) noexcept {

@@ -17,6 +17,9 @@ std::optional<double> lift_bend(const CamProfile& profile, bool turns, double co
 /// The nearest x to this one, within `reach`, where it ends, jumps or grows without bound.
 std::optional<double> lift_end(const CamProfile& profile, double x, double reach);
 
+/// Keeps `low` and `high` of a formula away from where it grows without bound or ends, next to x:
+/// the row would be scaled by slopes that the cam never has.
+void keep_from_ends(CamProfile& profile, double x);
 bool has_lift_formulas(const Model& model) noexcept;
 /// Why a cam by a formula has no lift in this motion: "cam 'k': its lift ... at x = 0"; empty: it
 /// has one, or is no cam by a formula. `near`: or why it has none a little further.

@@ -74,7 +74,7 @@ CamProfile cam_profile(const Cam& keys, bool turns) {
 
 double CamProfile::steepest() const {
   constexpr int samples = 2000;
-  double from = -std::numbers::pi, to = std::numbers::pi, most = 0.0;
+  double from = low, to = high, most = 0.0;
   if (!formula) {
     from = spline ? pieces.breaks().front() : ends.front();
     to = spline ? pieces.breaks().back() : ends.back();

@@ -10,6 +10,7 @@
 //   formula    of x
 // (Norton, Cam Design and Manufacturing Handbook, 2009.) A profile with a period repeats.
 #include <memory>
+#include <numbers>
 #include <vector>
 
 #include "floatframe/description/elements.hpp"
@@ -24,10 +25,12 @@ struct CamProfile {
   bool spline = false;
   PiecewisePolynomial pieces;  ///< of a spline
   SharedFormula formula;
+  double low = -std::numbers::pi, high = std::numbers::pi;  ///< x where its slopes are looked at
 
   /// At a coordinate of the cam. Step time.
   PiecewisePolynomial::Value operator()(double coordinate) const noexcept;
-  /// The largest |s'| of a period, or of the profile between its ends.
+  /// The largest |s'| of a period, or of the profile between its ends; of a formula from `low` to
+  /// `high`.
   double steepest() const;
 };
 

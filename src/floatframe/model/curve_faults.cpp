@@ -12,7 +12,7 @@ double extent_of(const std::vector<Vec3>& points) {
   return box.isEmpty() ? 0.0 : box.diagonal().norm();
 }
 
-double angle_between(const Vec3& a, const Vec3& b) {
+double turn_between(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
@@ -21,17 +21,17 @@ double corner_between(const SpaceCurve& curve, double a, double b, double& at) {
   constexpr double least = 1e-6;
   Vec3 before = curve.at(a).dc, after = curve.at(b).dc;
   for (;;) {
-    if (!(angle_between(before, after) > least)) return 0.0;
+    if (!(turn_between(before, after) > least)) return 0.0;
     const double middle = a + 0.5 * (b - a);
     if (!(middle > a && middle < b)) break;
     const Vec3 between = curve.at(middle).dc;
     if (!between.allFinite()) return 0.0;
-    const bool left = angle_between(before, between) > angle_between(between, after);
+    const bool left = turn_between(before, between) > turn_between(between, after);
     (left ? b : a) = middle;
     (left ? after : before) = between;
   }
   at = b;
-  return angle_between(before, after);
+  return turn_between(before, after);
 }
 
 /// The distance of two straight lines from a to b and from c to d.
@@ -66,6 +66,30 @@ bool meets(const SpaceCurve& curve, double step, double same, CurveCrossing& x) 
   return false;
 }
 
+/// Where it is farthest from the origin, between a and b with one such place, by the golden section;
+/// farther than any curve it grows without bound there, to the same side on both sides.
+std::optional<CurveGap> pole_between(const SpaceCurve& curve, double a, double b) {
+  constexpr double part = 0.6180339887498949, unbounded = 1e9;
+  constexpr int passes = 80;
+  const auto far = [&](double u) -> double {
+    const double r = curve.at(u).c.norm();
+    return std::isfinite(r) ? r : std::numeric_limits<double>::infinity();
+  };
+  double p = b - part * (b - a), q = a + part * (b - a), at_p = far(p), at_q = far(q);
+  for (int pass = 0; pass < passes; ++pass) {
+    if (at_p > unbounded || at_q > unbounded)
+      return CurveGap{at_p > at_q ? p : q, std::numeric_limits<double>::infinity()};
+    if (at_p > at_q) {
+      b = q, q = p, at_q = at_p;
+      p = b - part * (b - a), at_p = far(p);
+    } else {
+      a = p, p = q, at_p = at_q;
+      q = a + part * (b - a), at_q = far(q);
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<CurveGap> curve_gap(const SpaceCurve& curve) {
@@ -77,6 +101,10 @@ std::optional<CurveGap> curve_gap(const SpaceCurve& curve) {
     if (const auto gap = gap_between(u[k - 1], std::min(u[k], end), smallest,
                                      [&](double x) { return curve.at(x); }))
       return gap;
+  const std::vector<Vec3>& c = curve.samples();
+  for (std::size_t k = 1; k + 1 < u.size(); ++k)
+    if (c[k].norm() > c[k - 1].norm() && !(c[k].norm() < c[k + 1].norm()))
+      if (const auto pole = pole_between(curve, u[k - 1], std::min(u[k + 1], end))) return pole;
   return std::nullopt;
 }
 
@@ -96,7 +124,7 @@ CurveCorners curve_corners(const SpaceCurve& curve) {
     count(angle, at);
   }
   if (!curve.closed()) return out;
-  const double seam = angle_between(curve.at(end).dc, curve.at(u.front()).dc);
+  const double seam = turn_between(curve.at(end).dc, curve.at(u.front()).dc);
   count(seam > 1e-6 ? seam : 0.0, u.front());
   return out;
 }
@@ -112,9 +140,11 @@ std::optional<CurveCrossing> curve_crossing(const SpaceCurve& curve) {
     c.push_back(curve.at(u.back()).c);
   }
   if (!curve.closed()) c.back() = curve.samples().back();
-  std::vector<double> sag;
-  for (std::size_t k = 0; k < n; ++k)
+  std::vector<double> sag, chord;
+  for (std::size_t k = 0; k < n; ++k) {
+    chord.push_back((c[k + 1] - c[k]).norm());
     sag.push_back((curve.at(0.5 * (u[k] + u[k + 1])).c - 0.5 * (c[k] + c[k + 1])).norm());
+  }
   const double same = 1e-7 * extent_of(c);
   // Neighbours are near to each other, and so are those of a chord that is bent.
   constexpr std::size_t apart = 4;
@@ -122,7 +152,7 @@ std::optional<CurveCrossing> curve_crossing(const SpaceCurve& curve) {
     for (std::size_t j = i + apart; j < n; ++j) {
       if (curve.closed() && i + n < j + apart) continue;
       const double near = 1.5 * (sag[i] + sag[j]) + 1e-9;
-      const double reach = near + (c[i + 1] - c[i]).norm() + (c[j + 1] - c[j]).norm();
+      const double reach = near + chord[i] + chord[j];
       if ((c[i] - c[j]).squaredNorm() > reach * reach) continue;
       if (!(distance_of_chords(c[i], c[i + 1], c[j], c[j + 1]) < near)) continue;
       CurveCrossing x{0.5 * (u[i] + u[i + 1]), 0.5 * (u[j] + u[j + 1])};

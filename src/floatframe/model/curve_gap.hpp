@@ -1,7 +1,7 @@
 #pragma once
 // Gaps of a curve c(u): halving finds where the change between two parameters is not that of the
 // slopes,
-//   |c(b) - c(a) - h (c'(a) + c'(b)) / 2| > h (|c'(a)| + |c'(b)|) / 4,  h = b - a,               (1)
+//   |c(b) - c(a) - h (c'(a) + c'(b)) / 2| > h (|c'(a)| + |c'(b)|) / 4,  h = b - a,  (1)
 // down to neighbouring numbers. A change that is left there is a gap; where numbers end or grow
 // without bound the curve has an end. Load time only.
 #include <cmath>

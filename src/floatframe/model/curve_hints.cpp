@@ -75,10 +75,13 @@ void hint_at_curve(const std::string& name, const SpaceCurve& curve, HintList& o
 
 /// A point that the start moves onto its curve.
 void hint_at_point(const Model& model, const Element& e, const SpaceCurve& curve, HintList& out) {
-  constexpr double noticeable = 1e-6;
+  constexpr double noticeable = 1e-3;  // of the length of the curve
   const Pose a = design_pose(model, e.markers[0]), b = design_pose(model, e.markers[1]);
   const double off = curve.foot(a.R.transpose() * (b.p - a.p)).e.norm();
-  if (off > noticeable)
+  double length = 0.0;
+  for (std::size_t k = 1; k < curve.samples().size(); ++k)
+    length += (curve.samples()[k] - curve.samples()[k - 1]).norm();
+  if (off > noticeable * length)
     out.add(
         "constraint", e.name,
         fmt::format("its point is drawn {:.3g} m from its curve: the start moves it there", off));

@@ -147,6 +147,7 @@ bool cam_build(ElementBuild& build) {
                             jump->size, jump->at, profile.formula->text));
     return false;
   }
+  keep_from_ends(profile, keys.cam.factor * start - profile.phase);
   build.element.data = std::make_shared<CamProfile>(std::move(profile));
   return true;
 }
