@@ -192,7 +192,7 @@ ReductionOptions with_nodes_of_path(ReductionOptions options, const FrameDescrip
   std::map<int, unsigned> masks;
   for (const NodeDofs& d : options.path)
     for (const FeElement& e : model.elements)
-      if (frame.bars[static_cast<std::size_t>(e.section)].name == d.node)
+      if (frame.bars[e.section].name == d.node)
         for (int k = 0; k < 2; ++k) masks[e.nodes[k]] |= d.mask;
   options.path.clear();
   for (const auto& [node, mask] : masks) options.path.push_back({"", mask, node, {}});

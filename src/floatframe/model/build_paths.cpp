@@ -65,7 +65,7 @@ bool ElementBuild::slide(const MatX& points) {
       if (const double d = (nodes[k].p - p.col(i)).norm();
           !is_surface_point(nodes[k]) && d < best) {
         best = d;
-        nearest = static_cast<int>(k);
+        nearest = k;
       }
     if (best <= rules::node_tolerance) continue;
     Vec3 there = Vec3::Zero();

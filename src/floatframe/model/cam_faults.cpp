@@ -133,7 +133,7 @@ bool has_lift_formulas(const Model& model) noexcept {
 }
 
 std::string lift_complaint(const Ports& in, bool near) {
-  if (in.element.type != ElementType::cam) return {};
+  if (!std::get_if<Cam>(in.element.keys.get())) return {};
   const CamProfile& profile = in.data<CamProfile>();
   if (!profile.formula) return {};
   const Formula& f = *profile.formula;

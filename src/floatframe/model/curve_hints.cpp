@@ -8,6 +8,7 @@
 #include "floatframe/model/cam_faults.hpp"
 #include "floatframe/model/curve_contact.hpp"
 #include "floatframe/model/curve_faults.hpp"
+#include "floatframe/model/element_data.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/hint_list.hpp"
 #include "floatframe/model/loop_mobility.hpp"
@@ -23,7 +24,7 @@ std::string more_corners(std::size_t count) {
 }
 
 void hint_at_cam(const Model& model, const Element& e, HintList& out) {
-  const CamProfile& profile = *static_cast<const CamProfile*>(e.data.get());
+  const CamProfile& profile = data_of<CamProfile>(e);
   const Cam& keys = *std::get_if<Cam>(e.keys.get());
   const CoordinatePort& port = e.coordinates[1];
   constexpr double turn = 2.0 * std::numbers::pi;
@@ -92,14 +93,14 @@ void hint_at_point(const Model& model, const Element& e, const SpaceCurve& curve
 void hint_at_curves(const Model& model, HintList& out) {
   for (const Element& e : model.elements) {
     if (!e.data) continue;
-    if (e.type == ElementType::cam) hint_at_cam(model, e, out);
-    if (e.type == ElementType::point_on_curve) {
-      const auto& curve = *static_cast<const SpaceCurve*>(e.data.get());
+    if (std::get_if<Cam>(e.keys.get())) hint_at_cam(model, e, out);
+    if (std::get_if<PointOnCurve>(e.keys.get())) {
+      const auto& curve = data_of<SpaceCurve>(e);
       hint_at_curve(e.name, curve, out);
       hint_at_point(model, e, curve, out);
     }
-    if (e.type == ElementType::curve_on_curve) {
-      const auto& contact = *static_cast<const CurveContact*>(e.data.get());
+    if (std::get_if<CurveOnCurve>(e.keys.get())) {
+      const auto& contact = data_of<CurveContact>(e);
       for (const bool second : {false, true}) hint_at_curve(e.name, contact.curve(second), out);
     }
   }

@@ -29,8 +29,7 @@ SlidePath::SlidePath(std::vector<int> nodes, const Mat3X& p)
     const PiecewisePolynomial spline = cubic_spline(unit, SplineEnds::open);
     // Of the pieces between the knots: beyond the ends there is no curvature.
     for (Eigen::Index j = 0; j < n; ++j)
-      curvatures_(k, j) =
-          spline.piece_value(static_cast<std::size_t>(std::max<Eigen::Index>(j, 1)), u_[j]).ddf;
+      curvatures_(k, j) = spline.piece_value(std::max<Eigen::Index>(j, 1), u_[j]).ddf;
   }
 }
 

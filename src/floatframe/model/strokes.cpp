@@ -100,8 +100,7 @@ void Strokes::thread(int marker, const Vec3& axis, double radius, double length,
   const Mat3 R = frame_with_z(axis);
   std::vector<Vec3> points;
   for (int k = 0; k <= turns * each; ++k) {
-    const double angle = circle * k / each,
-                 part = static_cast<double>(k) / (turns * each) - 0.5;
+    const double angle = circle * k / each, part = static_cast<double>(k) / (turns * each) - 0.5;
     points.push_back(R * Vec3(radius * std::cos(angle),
                               (left_hand ? -radius : radius) * std::sin(angle), part * length));
   }
