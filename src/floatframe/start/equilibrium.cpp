@@ -216,7 +216,7 @@ Best search(RelativeFormulation& f, StaticsEquations& statics, const VecX& q, in
 
 /// The loads of friction from reactions at q, as if everything were held there.
 void begin_loads(RelativeFormulation& f, StaticsEquations& statics, const VecX& q,
-                 LoadIteration<RelativeFormulation>& loads) {
+                 LoadIteration& loads) {
   VecX lambda = VecX::Zero(f.constraints());
   const VecX r = statics.evaluate(q, lambda);
   if (lambda.size() > 0) {
@@ -229,7 +229,7 @@ void begin_loads(RelativeFormulation& f, StaticsEquations& statics, const VecX& 
 
 /// The loads of an equilibrium and the equilibrium with these loads, in turn.
 void follow_loads(RelativeFormulation& f, StaticsEquations& statics,
-                  LoadIteration<RelativeFormulation>& loads, int& iterations, Best& best) {
+                  LoadIteration& loads, int& iterations, Best& best) {
   constexpr int most_rounds = 50;
   constexpr double enough = 1e-10, most_left = 1e-6;
   const VecX none = VecX::Zero(f.velocities());
@@ -259,7 +259,7 @@ Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
   const VecX first = statics.evaluate(q, e.lambda);
   require_laws(f, 0.0);
   check_magnitudes(first, [&](int i) { return f.coordinate_owner(i); });
-  LoadIteration<RelativeFormulation> loads(f);
+  LoadIteration loads(f);
   if (loads.needed()) begin_loads(f, statics, q, loads);
   const VecX start_q = q, start_z = f.element_states().values();
   const bool held = hold_resting_branches(f, true);
