@@ -228,8 +228,8 @@ void begin_loads(RelativeFormulation& f, StaticsEquations& statics, const VecX& 
 }
 
 /// The loads of an equilibrium and the equilibrium with these loads, in turn.
-void follow_loads(RelativeFormulation& f, StaticsEquations& statics,
-                  LoadIteration& loads, int& iterations, Best& best) {
+void follow_loads(RelativeFormulation& f, StaticsEquations& statics, LoadIteration& loads,
+                  int& iterations, Best& best) {
   constexpr int most_rounds = 50;
   constexpr double enough = 1e-10, most_left = 1e-6;
   const VecX none = VecX::Zero(f.velocities());
