@@ -75,6 +75,7 @@ TEST(ValidateNamedCouplings, Gears) {
         },
         "couplings.tie.teeth: out_of_range"},
        {[](Gear& g) { g.pressure_angle = 20.0; }, "couplings.tie.pressure_angle: out_of_range"},
+       {[](Gear& g) { g.flank = GearFlank::backward; }, "couplings.tie.flank: incomplete"},
        {[](Gear& g) { g.helix_angle = 0.3; }, "couplings.tie.helix_angle: incomplete"},
        {[](Gear& g) { g.flank = static_cast<GearFlank>(7); }, "couplings.tie.flank: out_of_range"},
        {[](Gear& g) { g.pressure_angle = 0.35; }, "geometry"},

@@ -12,7 +12,7 @@ double extent_of(const std::vector<Vec3>& points) {
   return box.isEmpty() ? 0.0 : box.diagonal().norm();
 }
 
-double turn_of_tangents(const Vec3& a, const Vec3& b) {
+double tangent_turn(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
@@ -21,17 +21,17 @@ double corner_between(const SpaceCurve& curve, double a, double b, double& at) {
   constexpr double least = 1e-6;
   Vec3 before = curve.at(a).dc, after = curve.at(b).dc;
   for (;;) {
-    if (!(turn_of_tangents(before, after) > least)) return 0.0;
+    if (!(tangent_turn(before, after) > least)) return 0.0;
     const double middle = a + 0.5 * (b - a);
     if (!(middle > a && middle < b)) break;
     const Vec3 between = curve.at(middle).dc;
     if (!between.allFinite()) return 0.0;
-    const bool left = turn_of_tangents(before, between) > turn_of_tangents(between, after);
+    const bool left = tangent_turn(before, between) > tangent_turn(between, after);
     (left ? b : a) = middle;
     (left ? after : before) = between;
   }
   at = b;
-  return turn_of_tangents(before, after);
+  return tangent_turn(before, after);
 }
 
 /// The distance of two straight lines from a to b and from c to d.
@@ -66,8 +66,8 @@ bool meets(const SpaceCurve& curve, double step, double same, CurveCrossing& x) 
   return false;
 }
 
-/// Where it is farthest from the origin, between a and b with one such place, by the golden
-/// section; farther than any curve it grows without bound there, to the same side on both sides.
+/// A pole of the same sign on both sides: the place between a and b that is farthest from the
+/// origin, by the golden section, if it is farther than any curve goes.
 std::optional<CurveGap> pole_between(const SpaceCurve& curve, double a, double b) {
   constexpr double part = 0.6180339887498949, unbounded = 1e9;
   constexpr int passes = 80;
@@ -124,7 +124,7 @@ CurveCorners curve_corners(const SpaceCurve& curve) {
     count(angle, at);
   }
   if (!curve.closed()) return out;
-  const double seam = turn_of_tangents(curve.at(end).dc, curve.at(u.front()).dc);
+  const double seam = tangent_turn(curve.at(end).dc, curve.at(u.front()).dc);
   count(seam > 1e-6 ? seam : 0.0, u.front());
   return out;
 }
