@@ -141,14 +141,19 @@ void descend(RelativeFormulation& f, StaticsEquations& statics, VecX q, VecX lam
 }
 
 /// A vehicle on a road is in equilibrium at any position: free bodies are moved back to their start
-/// in the horizontal directions on which the equilibrium does not depend.
+/// in the horizontal directions on which neither the equilibrium nor the constraints depend.
 template <class Evaluate>
 void keep_neutral_positions(RelativeFormulation& f, const VecX& start, VecX& q, double residual,
                             double weight, const Evaluate& evaluate) {
+  constexpr double closed = 1e-10;  // [m]
+  evaluate(q);
+  const double gap = largest(f.constraint_values());
   for (const int i : f.tree().free_translations()) {
     VecX moved = q;
     moved[i] = start[i];
-    if (largest(evaluate(moved)) < residual + 1e-10 * weight) q = moved;
+    if (largest(evaluate(moved)) < residual + 1e-10 * weight &&
+        largest(f.constraint_values()) < gap + closed)
+      q = moved;
   }
 }
 
