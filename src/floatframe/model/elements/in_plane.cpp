@@ -31,7 +31,7 @@ ElementExample in_plane_example(std::size_t, ExampleNumbers& numbers) {
 std::vector<Stroke> in_plane_strokes(const Model& model, const Element& element) {
   Strokes out(model, element);
   const int a = element.markers[0];
-  out.square(a, Vec3::UnitZ(), std::max(out.size(a), out.size(element.markers[1])));
+  out.square(a, Vec3::UnitZ(), 0.2 * std::max(out.size(a), out.size(element.markers[1])));
   return out.take();
 }
 
