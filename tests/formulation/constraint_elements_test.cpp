@@ -68,6 +68,10 @@ ModelDescription held_chain(int modes) {
   give_curve(Vec3::UnitX(), Vec3::UnitY(), "u", "6 + 0.05 * u^2",
              {&groove.x, &groove.y, &groove.z});
   groove.range = MatX{{-30.0, 30.0}};
+  SlideAlong path;  // of a rigid body; slide_rows_test.cpp has those of flexible ones
+  path.a = s.at(ground_name, 0);
+  path.b = s.at("c", 2);
+  path.points = MatX{{-60.0, -6.0, 0.0}, {0.0, -7.0, 0.0}, {60.0, -6.0, 0.0}};
   s.d.constraints = {{"line", held(InLine(), "a", "c", 2), {}},
                      {"plane", held(InPlane(), "c", "b", 4), {}},
                      {"parallel", held(Parallel(), "b", ground_name, 0), {}},
@@ -75,6 +79,7 @@ ModelDescription held_chain(int modes) {
                      {"shafts", shafts, {}},
                      {"sliding", sliding, {}},
                      {"groove", groove, {}},
+                     {"path", path, {}},
                      {"touch", touching_curves(s), {}}};
   return s.d;
 }
@@ -91,7 +96,7 @@ class ConstraintElements : public ::testing::TestWithParam<int> {
     test(absolute, qa, va);
   }
   /// Rows of the constraints: the last ones.
-  static constexpr int rows = 2 + 1 + 2 + 1 + 4 + 1 + 2 + 1;
+  static constexpr int rows = 2 + 1 + 2 + 1 + 4 + 1 + 2 + 2 + 1;
 };
 
 TEST_P(ConstraintElements, AreOfEveryType) {
@@ -111,7 +116,8 @@ TEST_P(ConstraintElements, HaveTheRowsOfTheirTypes) {
     EXPECT_EQ(f.constraint_set().owner_of_row(first + 9), "constant_velocity 'shafts'");
     EXPECT_EQ(f.constraint_set().owner_of_row(first + 10), "constant_velocity 'sliding'");
     EXPECT_EQ(f.constraint_set().owner_of_row(first + 11), "point_on_curve 'groove'");
-    EXPECT_EQ(f.constraint_set().owner_of_row(first + 13), "curve_on_curve 'touch'");
+    EXPECT_EQ(f.constraint_set().owner_of_row(first + 13), "slide_along 'path'");
+    EXPECT_EQ(f.constraint_set().owner_of_row(first + 15), "curve_on_curve 'touch'");
   });
 }
 
