@@ -137,9 +137,8 @@ TEST(Failures, NoEquilibrium) {
   expect_in(m, "stone");
   d.simulation.start = Start::equilibrium;
   const Model start = build_model(d);
-  both_formulations([&](const Combination& c) {
-    expect_in(refusal(start, c), "equilibrium found: after ");
-  });
+  both_formulations(
+      [&](const Combination& c) { expect_in(refusal(start, c), "equilibrium found: after "); });
 }
 
 /// An arm without mass goes with its load until the torsion spring can hold no more, at 2.5 N m:
