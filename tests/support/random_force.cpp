@@ -108,8 +108,10 @@ ElementDescription random_force(ElementType type, const RandomForceEnds& ends,
   if (auto* stop = std::get_if<JointStop>(&f.kind); stop && *stop->upper < *stop->lower)
     std::swap(stop->lower, stop->upper);
   if (auto* journal = std::get_if<JournalBearing>(&f.kind)) journal->kinetic = journal->friction;
-  if (auto* friction = std::get_if<BristleFriction>(&f.kind))  // random joints repeat each other
+  if (auto* friction = std::get_if<BristleFriction>(&f.kind)) {  // random joints repeat each other
+    friction->reaction = false;
     friction->bearing_radius = friction->axial_radius = friction->bearing_length = std::nullopt;
+  }
   return f;
 }
 
