@@ -14,6 +14,6 @@ picture() {  # name, time [s], scale of the deformation
 picture four_bar 0.1 1
 picture gear_train 0.3 1
 picture cam 0.002 1
-picture robot_arm 1 10
+picture robot_arm 0 10
 picture scissor_lift 3 1
 picture crane_with_trolley 12 100
