@@ -47,7 +47,7 @@ test: build
 # What takes longer than everyday work allows. Models close to a limit fall to one side or the other with the processor;
 # docs/validation.md has the figures.
 test-all: test
-	cd build && FLOATFRAME_RANDOM=1000 $(CTEST) --timeout 20000 -R '^mechanisms\.'
+	$(MAKE) --no-print-directory -j2 --output-sync mechanisms-0 mechanisms-1
 	$(MAKE) --no-print-directory -j2 --output-sync attacks stairs-and-kills ATTACKS=200
 	$(MAKE) --no-print-directory test-viewer
 	$(MAKE) --no-print-directory test-export
@@ -55,6 +55,10 @@ test-all: test
 	$(MAKE) --no-print-directory test-figures
 	$(MAKE) --no-print-directory test-python
 	$(MAKE) --no-print-directory test-wheel
+
+# One half of the random mechanisms each.
+mechanisms-%: build
+	GTEST_TOTAL_SHARDS=2 GTEST_SHARD_INDEX=$* FLOATFRAME_RANDOM=1000 build/tests/mechanisms_tests --gtest_brief=1
 
 stairs-and-kills: build
 	FLOATFRAME_STAIRS=1 build/tests/run_tests --gtest_brief=1 --gtest_filter='*IltisStairs*'
