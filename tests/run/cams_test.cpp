@@ -282,7 +282,7 @@ TEST(EndsOfLifts, AreNamedWhereAStartOrAStepFails) {
     o.coordinates = c;
     const RunResult r = run(model, o);
     EXPECT_EQ(r.summary.status, "failed");
-    expect_in(r.summary.message, ": cam 'cam': its lift 'sqrt(x)' ");
+    expect_in(r.summary.message, "; cam 'cam': its lift 'sqrt(x)' ");
   }
 }
 

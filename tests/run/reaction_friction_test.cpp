@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "floatframe/start/statics.hpp"
 #include "floatframe/stepping/stepping.hpp"
 #include "support/allocation_counter.hpp"
 #include "support/completed_run.hpp"
@@ -234,6 +235,7 @@ TEST(ReactionFriction, RefusesWhatIsNotUnique) {
     const std::string shoulder = message(", axial_radius: 0.05");
     EXPECT_TRUE(contains(shoulder, "joint 'a', whose force along the axis is not unique"))
         << shoulder;
+    EXPECT_THROW(statics(model_of(four_bar(1e-3, ", axial_radius: 0.05"))), RunError);
   }
 }
 

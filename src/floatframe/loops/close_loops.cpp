@@ -14,8 +14,8 @@
 #include "floatframe/loops/redundancy.hpp"
 #include "floatframe/loops/run_error.hpp"
 #include "floatframe/math/dense.hpp"
-#include "floatframe/model/cam_faults.hpp"
 #include "floatframe/model/joint_measure.hpp"
+#include "floatframe/model/lift_checks.hpp"
 
 namespace floatframe {
 
@@ -259,7 +259,6 @@ void close_loops(RelativeFormulation& f, VecX& q, VecX& v, bool correct_position
     LoopPath path(f, t);
     if (as_given && path.any_loops() && !close_to_values(f, path, q, true, t)) {
       require_lifts(f, t, q_start, "with the start values");
-
       const std::string way =
           fmt::format("from the drawn configuration the start values are reached to {:.3g} %",
                       100.0 * path.reached());

@@ -108,7 +108,6 @@ bool ModelBuilder::subject(const OutputDescription& o, Output& out, const std::s
   return false;
 }
 
-/// One of the values of its element.
 bool ModelBuilder::value_of_element(const OutputDescription& o, Output& out,
                                     const std::string& what) {
   const std::vector<std::string>& values = model.elements[out.element].values;

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "floatframe/model/cam_faults.hpp"
+#include "floatframe/model/curve_checks.hpp"
 #include "floatframe/model/curve_contact.hpp"
-#include "floatframe/model/curve_faults.hpp"
 #include "floatframe/model/element_data.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/hint_list.hpp"
+#include "floatframe/model/lift_checks.hpp"
 #include "floatframe/model/loop_mobility.hpp"
 
 namespace floatframe {

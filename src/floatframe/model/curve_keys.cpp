@@ -5,7 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "floatframe/model/curve_faults.hpp"
+#include "floatframe/model/curve_checks.hpp"
 
 namespace floatframe {
 

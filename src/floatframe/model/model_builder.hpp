@@ -81,8 +81,9 @@ struct ModelBuilder {
   bool mass(const OutputDescription& o, Output& out, const std::string& who);
   /// The frame that it is relative to and its axes.
   bool frames(const OutputDescription& o, Output& out, const std::string& who);
-  /// The unit that the user wants.
+  /// One of the values of its element.
   bool value_of_element(const OutputDescription& o, Output& out, const std::string& what);
+  /// The unit that the user wants.
   bool unit(const OutputDescription& o, Output& out, const std::string& who);
   /// Its component is one of `n` numbers, of a mode or of a state.
   bool has_number(const OutputDescription& o, const char* what, int n, const std::string& who);

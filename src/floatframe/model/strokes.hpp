@@ -34,14 +34,14 @@ class Strokes {
   void curve(int marker, const std::vector<Vec3>& samples);
   /// A circle about an axis; with teeth, if there are some.
   void wheel(int marker, const Vec3& axis, double radius, double teeth = 0.0);
-  /// Both wheels of a pair with teeth of the same size: of the second one `ratio` times as many.
+  /// Both wheels of a pair, with teeth of the same size.
   void wheels(std::size_t i, double r_i, std::size_t j, double r_j);
   /// Moves what was added last, in the axes of its marker.
   void shift_last(const Vec3& by);
-  /// A square across an axis, and a line along it.
+  /// A square across an axis.
   void square(int marker, const Vec3& axis, double half);
   void line(int marker, const Vec3& from, const Vec3& to) { add(marker, {from, to}); }
-  /// A rack: a line with teeth, these many, about its middle; `up` is the side of its teeth.
+  /// A rack: a line with teeth about its middle; `up` is the side of its teeth.
   void rack(int marker, const Vec3& middle, const Vec3& along, const Vec3& up, double pitch);
   /// Turns of a thread about an axis, left-hand if the lead is negative.
   void thread(int marker, const Vec3& axis, double radius, double length, bool left_hand);

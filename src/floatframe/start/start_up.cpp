@@ -58,11 +58,11 @@ InitialisedModel::InitialisedModel(const Model& given, const SimulationDescripti
       min_step_(o.min_step > 0.0 ? o.min_step : o.step / 1024.0) {
   if (auto* relative = dynamic_cast<RelativeFormulation*>(f_.get())) {
     state_ = start_state(*relative, o, &report_);
-    require_unique_loads(*relative, state_.q, report_);
+    require_unique_loads(*relative, state_.q);
   } else {
     RelativeFormulation tree(model(), o.inertia);
     const State start = start_state(tree, o, &report_);
-    require_unique_loads(tree, start.q, report_);
+    require_unique_loads(tree, start.q);
     state_.t = start.t;
     state_.z = start.z;
     static_cast<AbsoluteFormulation&>(*f_).start_from(tree, start.q, start.v, state_.q, state_.v);

@@ -7,6 +7,7 @@
 #include "floatframe/model/joint_measure.hpp"
 #include "floatframe/start/initial_state.hpp"
 #include "floatframe/start/system_state.hpp"
+#include "floatframe/start/unique_loads.hpp"
 
 namespace floatframe {
 namespace {
@@ -117,6 +118,7 @@ StaticsResult statics(const Model& model) {
   state.v.setZero();
   close_loops(f, state.q, state.v, true);
   set_element_states(f, state);
+  require_unique_loads(f, state.q);
   const Equilibrium e = find_equilibrium(f, state.q);
   state.z = f.element_states().values();
   const std::string unstable = unstable_equilibrium(f, state.q, e.lambda);

@@ -34,12 +34,13 @@ std::string open_part(const Model& model, const ConstraintAnalysis& analysis, co
 
 }  // namespace
 
-void require_unique_loads(RelativeFormulation& tree, const VecX& q, const StartReport& report) {
+void require_unique_loads(RelativeFormulation& tree, const VecX& q) {
   const LoadReaders& readers = tree.load_readers();
-  if (readers.count() == 0 || report.redundant.empty()) return;
+  if (readers.count() == 0) return;
   const Model& model = tree.model();
   const ConstraintAnalysis analysis(tree, q);
   const MatX balanced = analysis.balanced();
+  if (balanced.cols() == 0) return;
   kinematics_at(tree, 0.0, q, VecX::Zero(tree.velocities()));
   for (int i = 0; i < readers.count(); ++i) {
     const Element& element = model.elements[readers.element(i)];

@@ -6,8 +6,7 @@
 namespace floatframe {
 
 /// Throws RunError naming the first element whose load, at the configuration q, is not unique. Only
-/// the parts that enter it count: of planar loops the forces across the axes are. `report` tells
-/// whether constraints are redundant there.
-void require_unique_loads(RelativeFormulation& tree, const VecX& q, const StartReport& report);
+/// the parts that enter it count: of planar loops the forces across the axes are.
+void require_unique_loads(RelativeFormulation& tree, const VecX& q);
 
 }  // namespace floatframe

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "floatframe/loops/redundancy.hpp"
-#include "floatframe/model/cam_faults.hpp"
 #include "floatframe/model/element_kind.hpp"
+#include "floatframe/model/lift_checks.hpp"
 #include "floatframe/start/light_motion.hpp"
 #include "floatframe/start/overflow.hpp"
 #include "floatframe/start/positive_mass.hpp"
@@ -37,9 +37,7 @@ std::string Stepper::failure() {
   std::string text = step_failure();  // first: refers to the failed iteration
   if (std::string numbers = overflow(); !numbers.empty()) text = std::move(numbers);
   kinematics_at(f_, state_);
-  if (const std::string lift = lost_lift_text(f_); !lift.empty())
-    return fmt::format("step failed at t = {:.6g} s after substeps down to {:.3g} s: {}", state_.t,
-                       smallest(), lift);
+  if (const std::string lift = lost_lift_text(f_); !lift.empty()) return text + "; " + lift;
   const std::string lost = lost_masses(f_.motion());
   return text + (lost.empty() ? light_motion_note(f_, state_) : "; " + lost);
 }

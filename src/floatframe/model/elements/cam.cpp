@@ -12,11 +12,11 @@
 #include <numbers>
 
 #include "floatframe/math/so3.hpp"
-#include "floatframe/model/cam_faults.hpp"
 #include "floatframe/model/cam_profile.hpp"
 #include "floatframe/model/coupled_coordinates.hpp"
 #include "floatframe/model/element_data.hpp"
 #include "floatframe/model/joint_motion.hpp"
+#include "floatframe/model/lift_checks.hpp"
 #include "floatframe/model/strokes.hpp"
 
 namespace floatframe {

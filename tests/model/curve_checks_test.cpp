@@ -1,13 +1,13 @@
 // What curves and lifts must not have: gaps and ends, corners, crossings, each where it is known to
 // be; and smooth ones have none of them.
-#include "floatframe/model/curve_faults.hpp"
+#include "floatframe/model/curve_checks.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "floatframe/model/cam_faults.hpp"
+#include "floatframe/model/lift_checks.hpp"
 #include "support/figures.hpp"
 #include "support/model_text.hpp"
 
@@ -25,7 +25,7 @@ SpaceCurve curve_by(const char* x, const char* z, double from, double to, bool c
   return SpaceCurve(keys);
 }
 
-TEST(CurveFaults, GapsAndEndsAreFound) {
+TEST(CurveChecks, GapsAndEndsAreFound) {
   const auto step = curve_gap(curve_by("if(u < 0.5, u, u + 0.2)", "-0.1 * u", 0.0, 1.0));
   ASSERT_TRUE(step);
   EXPECT_NEAR(step->at, 0.5, 1e-12);
@@ -39,7 +39,7 @@ TEST(CurveFaults, GapsAndEndsAreFound) {
   EXPECT_NEAR(even->at, 0.1234, 1e-3);
 }
 
-TEST(CurveFaults, SmoothCurvesHaveNone) {
+TEST(CurveChecks, SmoothCurvesHaveNone) {
   for (const SpaceCurve& curve :
        {curve_by("0.5 * cos(u)", "0.5 * sin(u)", 0.0, 2.0 * std::numbers::pi, true),
         curve_by("u", "tanh(1000 * u)", -1.0, 1.0), curve_by("u + sin(u)", "1 - cos(u)", -2.6, 2.6),
@@ -50,7 +50,7 @@ TEST(CurveFaults, SmoothCurvesHaveNone) {
   }
 }
 
-TEST(CurveFaults, CornersTurnTheTangent) {
+TEST(CurveChecks, CornersTurnTheTangent) {
   const CurveCorners one = curve_corners(curve_by("u", "abs(u - 0.3)", 0.0, 1.0));
   EXPECT_EQ(one.count, 1u);
   EXPECT_NEAR(one.at, 0.3, 1e-9);
@@ -65,7 +65,7 @@ TEST(CurveFaults, CornersTurnTheTangent) {
   EXPECT_NEAR(drop.angle, std::numbers::pi - 2.0 * std::atan(2.0), 1e-6);
 }
 
-TEST(CurveFaults, CrossingsAreFound) {
+TEST(CurveChecks, CrossingsAreFound) {
   const auto eight = curve_crossing(
       curve_by("0.5 * sin(2 * u)", "0.5 * sin(u)", 0.1, 0.1 + 2.0 * std::numbers::pi, true));
   ASSERT_TRUE(eight);
@@ -85,7 +85,7 @@ CamProfile lift_by(const char* text) {
   return cam_profile(keys, true);
 }
 
-TEST(LiftFaults, JumpsAndCornersAreWhereTheyAre) {
+TEST(LiftChecks, JumpsAndCornersAreWhereTheyAre) {
   const FormulaCorners jump = lift_corners(lift_by("if(x < 1, 0, 0.1)"), true, 0.0);
   ASSERT_TRUE(jump.jump);
   EXPECT_NEAR(jump.jump->at, 1.0, 1e-12);
@@ -100,7 +100,7 @@ TEST(LiftFaults, JumpsAndCornersAreWhereTheyAre) {
   EXPECT_NEAR(corner.slope->size, 2.0, 1e-9);
 }
 
-TEST(LiftFaults, BendsAreCornersOfTheSlopeAlone) {
+TEST(LiftChecks, BendsAreCornersOfTheSlopeAlone) {
   const auto bend = lift_bend(lift_by("0.1 * max(0, sin(x))^2"), true, 0.3);
   ASSERT_TRUE(bend);
   EXPECT_NEAR(std::sin(*bend), 0.0, 1e-6);
@@ -108,7 +108,7 @@ TEST(LiftFaults, BendsAreCornersOfTheSlopeAlone) {
     EXPECT_FALSE(lift_bend(lift_by(none), true, 0.3)) << none;
 }
 
-TEST(LiftFaults, EndsAreTheNearestOnes) {
+TEST(LiftChecks, EndsAreTheNearestOnes) {
   EXPECT_NEAR(lift_end(lift_by("sqrt(x)"), 0.05, 0.1).value_or(9.0), 0.0, 1e-9);
   EXPECT_NEAR(lift_end(lift_by("1 / (x - 1)"), 0.95, 0.1).value_or(9.0), 1.0, 1e-9);
   EXPECT_FALSE(lift_end(lift_by("sqrt(x)"), 0.5, 0.1));
@@ -135,7 +135,7 @@ std::string hint_of(const std::string& text) {
   return all;
 }
 
-TEST(LiftFaults, OfCamsAreRefusedOrNoted) {
+TEST(LiftChecks, OfCamsAreRefusedOrNoted) {
   EXPECT_EQ(hint_of(follower_text("formula: 0.1 * sin(x)")), "");
   expect_in(message_of<InputError>([] { hint_of(follower_text("formula: 0.01 * floor(x)")); }),
             "expected a lift without jumps: a follower cannot jump");
@@ -158,7 +158,7 @@ std::string bead_text(const std::string& curve) {
          curve + "}}\n";
 }
 
-TEST(CurveFaults, OfConstraintsAreRefusedOrNoted) {
+TEST(CurveChecks, OfConstraintsAreRefusedOrNoted) {
   EXPECT_EQ(hint_of(bead_text("x: u, range: [0, 1]")), "");
   expect_in(message_of<InputError>(
                 [] { hint_of(bead_text("x: \"if(u < 0.5, u, u + 0.2)\", range: [0, 1]")); }),

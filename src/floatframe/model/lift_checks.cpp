@@ -1,4 +1,4 @@
-#include "floatframe/model/cam_faults.hpp"
+#include "floatframe/model/lift_checks.hpp"
 
 #include <fmt/format.h>
 
@@ -23,8 +23,7 @@ std::vector<double> reaches_of_lift(bool turns) {
   return {0.1, 10.0};
 }
 
-/// The coordinate of the cam and its rate.
-std::pair<double, double> coordinate_of_cam(const Ports& in) {
+double coordinate_of_cam(const Ports& in) {
   const std::vector<CoordinatePort>& all = in.element.coordinates;
   const CoordinatePort& port = all.back();
   const MarkerState &a = in.marker(port.port), &b = in.marker(port.port + 1);
@@ -34,11 +33,10 @@ std::pair<double, double> coordinate_of_cam(const Ports& in) {
     const auto slot =
         std::ranges::count_if(all, [](const CoordinatePort& p) { return p.counted; }) - 1;
     const double last = port.counted && in.angles ? in.angles[slot] : 0.0;
-    return {angle_about_z<double>(a, b, last), a.R.col(2).dot(b.w - a.w)};
+    return angle_about_z<double>(a, b, last);
   }
   const Vec3 e = a.R * (axis ? axis->direction : Vec3::UnitZ());
-  const AxisMeasure<double> m = axis_measure(e, a, b);
-  return {m.s, m.rate};
+  return axis_measure(e, a, b).s;
 }
 
 /// It has a value at x, but next to it a slope without bound.
@@ -137,8 +135,8 @@ std::string lift_complaint(const Ports& in, bool near) {
   const CamProfile& profile = in.data<CamProfile>();
   if (!profile.formula) return {};
   const Formula& f = *profile.formula;
-  const auto [q, rate] = coordinate_of_cam(in);
-  const double x = std::get<Cam>(*in.element.keys).cam.factor * q - profile.phase;
+  const double x =
+      std::get<Cam>(*in.element.keys).cam.factor * coordinate_of_cam(in) - profile.phase;
   if (!std::isfinite(x)) return {};
   const std::string who = element_name(in.element) + ": ";
   if (const std::string why = fault_at(f, x); !why.empty())

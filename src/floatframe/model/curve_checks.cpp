@@ -1,4 +1,4 @@
-#include "floatframe/model/curve_faults.hpp"
+#include "floatframe/model/curve_checks.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
