@@ -122,13 +122,17 @@ std::vector<ElementSignal> signals_of(const Element& element) {
   const ElementDescription described{element.name, *element.keys, {}};
   std::size_t port = 0;
   for (const ElementKey& key : element_keys(element.type)) {
+    std::size_t n = is_signal(key) || key.kind == KeyKind::signals
+                        ? signals_of(ElementView(described), key).size()
+                        : 0;
+    if (n == 0) continue;
     const bool load = key.kind == KeyKind::load || key.kind == KeyKind::signals;
     const ElementQuantity quantity = load                               ? ElementQuantity::force
                                      : key.kind == KeyKind::target_rate ? ElementQuantity::rate
                                                                         : ElementQuantity::length;
     std::string what = key.name;
     std::replace(what.begin(), what.end(), '_', ' ');
-    for (std::size_t n = signals_of(ElementView(described), key).size(); n > 0; --n)
+    for (; n > 0; --n)
       if (const Signal& signal = element.signals[port++]; signal.given)
         out.push_back({&signal, what, !load, element_output_unit(element, quantity)});
   }

@@ -231,6 +231,11 @@ std::vector<Forcing> all_forcing(const Model& model) {
 
 std::vector<FormulaOfTime> formulas_of_time(const Model& model) {
   std::vector<FormulaOfTime> out;
+  const auto has_formula = [](const Element& e) {
+    return std::any_of(e.signals.begin(), e.signals.end(),
+                       [](const Signal& s) { return s.function.formula != nullptr; });
+  };
+  if (std::none_of(model.elements.begin(), model.elements.end(), has_formula)) return out;
   for (const Forcing& f : all_forcing(model))
     if (f.function->formula && has_corners(*f.function->formula))
       out.push_back({f.function->formula, f.kind == Forcing::Kind::motion});
