@@ -6,9 +6,6 @@
 
 namespace floatframe {
 
-namespace {
-
-/// Of the wrenches of a part, that on its second marker, which is all that joints report.
 WrenchOf<double> wrench_on_b(const ConstraintSet& set, std::size_t part,
                              const VecX& lambda) noexcept {
   WrenchOf<double> sum{Vec3::Zero(), Vec3::Zero()};
@@ -24,8 +21,6 @@ WrenchOf<double> wrench_on_b(const ConstraintSet& set, std::size_t part,
   }
   return sum;
 }
-
-}  // namespace
 
 void add_part_wrenches(const ConstraintSet& set, const VecX& lambda,
                        Reactions& reactions) noexcept {

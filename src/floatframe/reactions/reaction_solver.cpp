@@ -164,7 +164,7 @@ void ReactionSolver::set_impulses(const ConstraintSet& set, const VecX& impulses
   for (Vec3& x : reactions_.element_impulses) x.setZero();
   for (std::size_t k = 0; k < set.parts().size(); ++k) {
     const ConstraintPart& p = set.parts()[k];
-    const Vec3 on_b = -set.wrench(k, impulses).b.F;
+    const Vec3 on_b = -wrench_on_b(set, k, impulses).F;
     if (p.counted_by() >= 0)
       reactions_.joint_impulses[p.owner.joint] += on_b;
     else
