@@ -51,8 +51,7 @@ test-all: test
 	$(MAKE) --no-print-directory -j2 --output-sync attacks stairs-and-kills ATTACKS=200
 	$(MAKE) --no-print-directory test-viewer
 	$(MAKE) --no-print-directory test-export
-	$(MAKE) --no-print-directory test-decks
-	$(MAKE) --no-print-directory test-figures
+	$(MAKE) --no-print-directory -j2 --output-sync test-decks test-figures
 	$(MAKE) --no-print-directory test-python
 	$(MAKE) --no-print-directory test-wheel
 
