@@ -177,5 +177,20 @@ TEST(CurveChecks, OfConstraintsAreRefusedOrNoted) {
       "constraint 'wire': its curve crosses or meets itself at u = ");
 }
 
+// A disc of 0.1 m whose centre is 0.1 m above the plate, or more.
+TEST(CurveChecks, CurvesThatAreDrawnApartAreNoted) {
+  const auto disc_at = [](const std::string& z) {
+    return "bodies: {disc: {position: [0, 0, " + z +
+           "], rigid: {mass: 1, inertia: [0.1, 0.1, 0.1]}}}\n"
+           "constraints: {roll: {type: curve_on_curve, from: {body: ground, at: [0, 0, 0]}, to: "
+           "{body: disc}, axis: y, x: u, range: [-1, 1], x_2: 0.1 * cos(u), z_2: 0.1 * sin(u), "
+           "range_2: [0, 6.283185307179586], closed_2: true}}\n";
+  };
+  EXPECT_EQ(hint_of(disc_at("0.1")), "");
+  expect_in(hint_of(disc_at("0.15")),
+            "constraint 'roll': its curves are drawn 0.05 m from where they touch: the start moves "
+            "them there");
+}
+
 }  // namespace
 }  // namespace floatframe::test

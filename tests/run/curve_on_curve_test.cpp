@@ -138,5 +138,17 @@ TEST(CurveOnCurve, CurvesThatCouldTouchTwiceAreRefused) {
   EXPECT_EQ(refused(wave, circle(0.03, 0.0, "_2")), "no error");
 }
 
+// A groove that is sharper at its bottom than the eccentric below it, and wider further up. From
+// outside they could touch in one place, on the other side of the cam, which is not what is drawn.
+TEST(CurveOnCurve, AnotherPairThanTheDrawnOneIsNotTaken) {
+  const auto refused = [](const std::string& follower) {
+    return error_of([&] { model_of(eccentric(circle(0.05, 0.0, ""), follower, 0.05)); });
+  };
+  EXPECT_NE(refused("x_2: u, z_2: -100 * u^2, range_2: [-0.06, 0.06]").find(": geometry"),
+            std::string::npos);
+  EXPECT_EQ(refused("x_2: u, z_2: -4 * u^2, range_2: [-0.06, 0.06]"), "no error");
+  EXPECT_EQ(refused("x_2: u, z_2: 100 * u^2, range_2: [-0.06, 0.06]"), "no error");
+}
+
 }  // namespace
 }  // namespace floatframe::test

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "floatframe/start/check.hpp"
 #include "support/completed_run.hpp"
 #include "support/figures.hpp"
 #include "support/model_text.hpp"
@@ -55,6 +56,24 @@ TEST(JournalBearing, RestsWhereTheContactCarriesTheWeight) {
       EXPECT_EQ(end_of(r, torque_column), 0.0);
     }
   }
+}
+
+// k (e - c)^n = 1e6 (0.3 - 0.001)
+TEST(JournalBearing, AShaftThatIsDrawnBesideItsBushIsNoted) {
+  const auto notes = [](const std::string& place) {
+    const Model model = model_of(
+        shaft_in_bush(place, "radius: 0.02, clearance: 0.001, stiffness: 1.0e6", "step: 1.0e-4"));
+    std::string all;
+    for (const std::string& note : check(model).start.notes) all += note + "\n";
+    return all;
+  };
+  EXPECT_EQ(notes("position: [0, 0.0011, 0]").find("bush"), std::string::npos);
+  const std::string beside = notes("position: [0, 0.3, 0]");
+  EXPECT_NE(beside.find("journal_bearing 'b': the shaft is 0.3 m off the centre of its bush, whose "
+                        "clearance is 0.001 m, so that at the start it is pushed back with "
+                        "2.99e+05 N"),
+            std::string::npos)
+      << beside;
 }
 
 // On a circle of the radius e at the speed W: m W^2 e = k (e - c).

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "floatframe/start/check.hpp"
 #include "floatframe/start/statics.hpp"
 #include "floatframe/stepping/stepping.hpp"
 #include "support/allocation_counter.hpp"
@@ -236,6 +237,7 @@ TEST(ReactionFriction, RefusesWhatIsNotUnique) {
     EXPECT_TRUE(contains(shoulder, "joint 'a', whose force along the axis is not unique"))
         << shoulder;
     EXPECT_THROW(statics(model_of(four_bar(1e-3, ", axial_radius: 0.05"))), RunError);
+    EXPECT_THROW(check(model_of(four_bar(1e-3, ", axial_radius: 0.05"))), RunError);
   }
 }
 

@@ -1,7 +1,8 @@
 // Notes about cams and curves: corners, profiles that nearly fill a turn, curves that cross
-// themselves, points that are not drawn on their curve.
+// themselves, points that are not drawn on their curve, curves that are not drawn in touch.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -74,15 +75,35 @@ void hint_at_curve(const std::string& name, const SpaceCurve& curve, HintList& o
                         crossing->u, crossing->w));
 }
 
-/// A point that the start moves onto its curve.
-void hint_at_point(const Model& model, const Element& e, const SpaceCurve& curve, HintList& out) {
-  constexpr double noticeable = 1e-3;  // of the length of the curve
-  const Pose a = design_pose(model, e.markers[0]), b = design_pose(model, e.markers[1]);
-  const double off = curve.foot(a.R.transpose() * (b.p - a.p)).e.norm();
+double length_of(const SpaceCurve& curve) {
   double length = 0.0;
   for (std::size_t k = 1; k < curve.samples().size(); ++k)
     length += (curve.samples()[k] - curve.samples()[k - 1]).norm();
-  if (off > noticeable * length)
+  return length;
+}
+
+constexpr double noticeable_gap = 1e-3;  // of the length of the curve
+
+/// Curves that the start moves together.
+void hint_at_contact(const Model& model, const Element& e, const CurveContact& contact,
+                     HintList& out) {
+  const Pose a = design_pose(model, e.markers[contact.swapped() ? 1 : 0]),
+             b = design_pose(model, e.markers[contact.swapped() ? 0 : 1]);
+  const Mat3 R = a.R.transpose() * b.R;
+  const double off = std::abs(contact.at(R, a.R.transpose() * (b.p - a.p)).phi);
+  const double length = std::min(length_of(contact.curve(false)), length_of(contact.curve(true)));
+  if (off > noticeable_gap * length)
+    out.add("constraint", e.name,
+            fmt::format("its curves are drawn {:.3g} m from where they touch: the start moves them "
+                        "there",
+                        off));
+}
+
+/// A point that the start moves onto its curve.
+void hint_at_point(const Model& model, const Element& e, const SpaceCurve& curve, HintList& out) {
+  const Pose a = design_pose(model, e.markers[0]), b = design_pose(model, e.markers[1]);
+  const double off = curve.foot(a.R.transpose() * (b.p - a.p)).e.norm();
+  if (off > noticeable_gap * length_of(curve))
     out.add(
         "constraint", e.name,
         fmt::format("its point is drawn {:.3g} m from its curve: the start moves it there", off));
@@ -102,6 +123,7 @@ void hint_at_curves(const Model& model, HintList& out) {
     if (std::get_if<CurveOnCurve>(e.keys.get())) {
       const auto& contact = data_of<CurveContact>(e);
       for (const bool second : {false, true}) hint_at_curve(e.name, contact.curve(second), out);
+      hint_at_contact(model, e, contact, out);
     }
   }
 }

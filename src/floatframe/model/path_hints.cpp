@@ -2,12 +2,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/sparse_factors.hpp"
 #include "floatframe/model/build_flexible.hpp"
 #include "floatframe/model/hint_list.hpp"
+#include "floatframe/model/loop_mobility.hpp"
 #include "floatframe/model/slide_path.hpp"
 #include "floatframe/reduction/fixed_interface.hpp"
 
@@ -45,12 +47,19 @@ class SagOfNodes {
   std::optional<SparseFactors> factors_;
 };
 
+/// A part of the deflection below a force, and the direction of both in axes of the body.
+struct MissingSag {
+  double part = 0.0;
+  Vec3 along = Vec3::Zero();
+};
+
 /// The largest part of the deflection below a force across the path, of those directions in which
 /// the modes bend most, that the modes do not have.
-double missing_sag(const SlidePath& path, const FlexibleBody& body, const SagOfNodes& whole) {
+MissingSag missing_sag(const SlidePath& path, const FlexibleBody& body, const SagOfNodes& whole) {
   constexpr Eigen::Index most_places = 40;
   const Eigen::Index n = path.size(), step = 1 + (n - 1) / most_places;
-  double missing = 0.0, largest_sag = 0.0;
+  MissingSag missing;
+  double largest_sag = 0.0;
   for (Eigen::Index k = 0; k < n; k += step) {
     const int node = path.nodes()[k];
     const Vec3 along = (path.points().col(std::min(k + 1, n - 1)) -
@@ -63,9 +72,17 @@ double missing_sag(const SlidePath& path, const FlexibleBody& body, const SagOfN
     const double sag = direction.dot(whole.at(node) * direction);
     largest_sag = std::max(largest_sag, sag);
     if (!(reduced.values[2] > 0.0) || !(sag > 1e-3 * largest_sag)) continue;
-    missing = std::max(missing, 1.0 - reduced.values[2] / sag);
+    const double part = 1.0 - reduced.values[2] / sag;
+    if (part > missing.part) missing = {part, direction};
   }
   return missing;
+}
+
+/// "y", or a unit vector; of either sense.
+std::string line_text(const Vec3& d) {
+  for (int k = 0; k < 3; ++k)
+    if (std::abs(d[k]) > 1.0 - 1e-6) return std::string(1, "xyz"[k]);
+  return fmt::format("[{:.3g}, {:.3g}, {:.3g}]", d.x(), d.y(), d.z());
 }
 
 }  // namespace
@@ -84,13 +101,13 @@ void hint_at_paths(const ModelDescription& description, const Model& model, Hint
     if (fe.nodes() > most_nodes) continue;
     const SagOfNodes whole(fe, frame->clamped);
     if (!whole.regular()) continue;
-    const double missing = missing_sag(*m.path, *model.bodies[m.body].data, whole);
-    if (missing > noticeable)
-      out.add(
-          "constraint", e.name,
-          fmt::format("the modes of body '{}' leave out up to {:.2g} % of the sag below a force "
-                      "on the path: path_shapes of its bars add it",
-                      body.name, 100.0 * missing));
+    const MissingSag missing = missing_sag(*m.path, *model.bodies[m.body].data, whole);
+    if (!(missing.part > noticeable)) continue;
+    const Mat3 R = design_pose(model, e.markers[0]).R * m.X_NM.R.transpose();
+    out.add("constraint", e.name,
+            fmt::format("the modes of body '{}' leave out up to {:.2g} % of the sag below a force "
+                        "on the path along {}: path_shapes of its bars add it",
+                        body.name, 100.0 * missing.part, line_text(R * missing.along)));
   }
 }
 

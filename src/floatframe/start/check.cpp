@@ -7,6 +7,7 @@
 #include "floatframe/model/sampling.hpp"
 #include "floatframe/start/initial_state.hpp"
 #include "floatframe/start/system_state.hpp"
+#include "floatframe/start/unique_loads.hpp"
 
 namespace floatframe {
 namespace {
@@ -52,6 +53,7 @@ ModelCounts check(const Model& model) {
   c.absolute = absolute.counts();
   // Rank at the assembled start, with position constraints only.
   State start = relative_start(relative, Start::given, &c.start);
+  require_unique_loads(relative, start.q);
   // A singular mass matrix is detected here.
   const double penalty_mass = default_penalty_mass(model, Coordinates::relative);
   if (start_accelerations(relative, start, penalty_mass) && model.simulation.spectral_radius == 1.0)

@@ -67,23 +67,28 @@ std::shared_ptr<const CurveContact> contact_of_curves(const SpaceCurve& one, con
   }
   const CurvatureRange a = curvatures(one, k), b = curvatures(two, k);
   std::shared_ptr<const CurveContact> best;
-  double least = std::numeric_limits<double>::infinity();
+  double least = std::numeric_limits<double>::infinity(), refused = least;
   if (a.one_sign() || b.one_sign())
     for (const bool same : {false, true}) {
-      if (!one_contact(a, b, same)) continue;
       auto contact = std::make_shared<const CurveContact>(one, two, k, same);
       const double gap =
           std::abs(contact->at(Mat3::Identity(), contact->swapped() ? Vec3(-d) : d).phi);
-      if (!(gap < least)) continue;
-      least = gap;
-      best = std::move(contact);
+      if (!one_contact(a, b, same)) {
+        if (gap < refused) refused = gap;
+      } else if (gap < least) {
+        least = gap;
+        best = std::move(contact);
+      }
     }
-  if (!best)
+  // A pair that is clearly nearer is the one that is drawn.
+  if (!best || refused < 0.5 * least) {
+    best = nullptr;
     complaint = fmt::format(
         "found curvatures from {:.4g} to {:.4g} 1/m and from {:.4g} to {:.4g} 1/m, with which the "
         "curves can touch in two places, expected one that is curved more than the other "
         "everywhere",
         a.low, a.high, b.low, b.high);
+  }
   return best;
 }
 

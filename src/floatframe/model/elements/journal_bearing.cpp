@@ -10,11 +10,16 @@
 //                  on the bush in the same points: torque -r F about z on the shaft
 //   rows           slope and damping of P along n, P/s along t, P f_v of the sliding
 // While apart the bristles keep their deflection. What they store counts as dissipated.
+#include <fmt/format.h>
+
+#include <cmath>
+
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/model/bristle_law.hpp"
 #include "floatframe/model/contact_law.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/port_measures.hpp"
+#include "floatframe/model/system_motion.hpp"
 
 namespace floatframe {
 
@@ -162,6 +167,20 @@ bool journal_bearing_build(ElementBuild& build) {
   return from && to;
 }
 
+/// A shaft deep in its bush: more than the clearance again.
+void journal_bearing_note(const Element& element, const SystemMotion& start,
+                          std::vector<std::string>& notes) {
+  const auto& keys = std::get<JournalBearing>(*element.keys);
+  const Vec3 d = start.place(element.markers[1]) - start.place(element.markers[0]);
+  const Vec3 z = start.marker(element.markers[0]).R.col(2);
+  const double eccentricity = d.cross(z).norm(), depth = eccentricity - keys.clearance;
+  if (!(depth > keys.clearance)) return;
+  notes.push_back(fmt::format(
+      "journal_bearing '{}': the shaft is {:.4g} m off the centre of its bush, whose clearance is "
+      "{:.4g} m, so that at the start it is pushed back with {:.4g} N",
+      element.name, eccentricity, keys.clearance, keys.stiffness * std::pow(depth, keys.exponent)));
+}
+
 Picture journal_bearing_picture(const Element& element) {
   return {.symbol = Picture::Symbol::ring,
           .a = element.markers[0],
@@ -283,6 +302,7 @@ constinit const ElementKind journal_bearing_element = {
     .dual = journal_bearing_law<Dual>,
     .side = journal_bearing_side,
     .picture = journal_bearing_picture,
+    .note = journal_bearing_note,
     .regimes = journal_bearing_regimes,
     .example = journal_bearing_example};
 
