@@ -14,7 +14,7 @@
 namespace floatframe::test {
 namespace {
 
-constexpr double mass = 400.0, g = 9.81, stiffness = 80000.0 / 0.3;
+constexpr double car_mass = 400.0, earth_gravity = 9.81, rest_stiffness = 80000.0 / 0.3;
 
 struct BrakeCase {
   const char* name;
@@ -24,7 +24,7 @@ struct BrakeCase {
 /// 400 kg on a wheel of 1.2 kg m2 and 0.3 m; uphill is along x, by the direction of gravity. The
 /// brake sticks by bristles.
 std::string quarter_vehicle(const BrakeCase& x) {
-  const double angle = std::atan(x.grade), load = mass * g * std::cos(angle);
+  const double angle = std::atan(x.grade), load = car_mass * earth_gravity * std::cos(angle);
   return fmt::format(
       R"(
 gravity: [{:.17g}, 0, {:.17g}]
@@ -45,8 +45,8 @@ outputs:
   Fx: {{force: tyre, output: longitudinal_force}}
 simulation: {{step: 1.0e-4, duration: 1, output_interval: 0.1, spectral_radius: 0.8}}
 )",
-      -g * std::sin(angle), -g * std::cos(angle), x.speed, x.speed / 0.3, 0.3 + load / 2e5,
-      x.friction,
+      -earth_gravity * std::sin(angle), -earth_gravity * std::cos(angle), x.speed, x.speed / 0.3,
+      0.3 + load / 2e5, x.friction,
       x.torque > 0.0
           ? fmt::format("  brake: {{type: bristle_friction, joint: axle, breakaway: {}, stiffness: "
                         "2.0e+7, damping: 5.0e+3}}\n",
@@ -83,19 +83,18 @@ TEST_P(QuarterVehicle, IsTheReferenceUntilItStops) {
   EXPECT_LT(speed, 1e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Cases, QuarterVehicle,
-    ::testing::Values(BrakeCase{"brake_no_lock", 15, 600, 0, 1, 0},
-                      BrakeCase{"brake_lock", 15, 2000, 0, 1, 0},
-                      BrakeCase{"brake_lock_mu03", 15, 2000, 0, 0.3, 0},
-                      BrakeCase{"brake_uphill_15pc", 10, 600, 0.15, 1, 0},
-                      BrakeCase{"brake_downhill_15pc", 10, 600, -0.15, 1, 0},
-                      BrakeCase{"park_15pc", 0, 2000, 0.15, 1, 0},
-                      BrakeCase{"park_30pc", 0, 2000, 0.3, 1, 0},
-                      BrakeCase{"park_30pc_brake_too_weak", 0, 250, 0.3, 1, 0},
-                      BrakeCase{"park_30pc_mu02_slides", 0, 2000, 0.3, 0.2, 0},
-                      BrakeCase{"drive_from_rest", 0, 0, 0, 1, 300}),
-    [](const auto& c) { return std::string(c.param.name); });
+INSTANTIATE_TEST_SUITE_P(Cases, QuarterVehicle,
+                         ::testing::Values(BrakeCase{"brake_no_lock", 15, 600, 0, 1, 0},
+                                           BrakeCase{"brake_lock", 15, 2000, 0, 1, 0},
+                                           BrakeCase{"brake_lock_mu03", 15, 2000, 0, 0.3, 0},
+                                           BrakeCase{"brake_uphill_15pc", 10, 600, 0.15, 1, 0},
+                                           BrakeCase{"brake_downhill_15pc", 10, 600, -0.15, 1, 0},
+                                           BrakeCase{"park_15pc", 0, 2000, 0.15, 1, 0},
+                                           BrakeCase{"park_30pc", 0, 2000, 0.3, 1, 0},
+                                           BrakeCase{"park_30pc_brake_too_weak", 0, 250, 0.3, 1, 0},
+                                           BrakeCase{"park_30pc_mu02_slides", 0, 2000, 0.3, 0.2, 0},
+                                           BrakeCase{"drive_from_rest", 0, 0, 0, 1, 300}),
+                         [](const auto& c) { return std::string(c.param.name); });
 
 // It rocks back by F/C, and stands.
 TEST(QuarterVehicleStop, RocksBackAndStands) {
@@ -104,7 +103,8 @@ TEST(QuarterVehicleStop, RocksBackAndStands) {
       completed_run(model, with(model.simulation, Coordinates::relative, 1e-3, 14.0));
   double furthest = 0.0;
   for (std::size_t k = 0; k < r.table.rows(); ++k) furthest = std::max(furthest, r.table.at(k, 1));
-  const double back = furthest - r.table.at(r.table.rows() - 1, 1), expected = mass * g / stiffness;
+  const double back = furthest - r.table.at(r.table.rows() - 1, 1),
+               expected = car_mass * earth_gravity / rest_stiffness;
   EXPECT_NEAR(back, expected, 0.03 * expected);
   EXPECT_LT(std::abs(r.table.at(r.table.rows() - 1, 2)), 1e-6);
 }
@@ -120,8 +120,8 @@ TEST(QuarterVehicleStop, RestsOnItsTyreAndDoesNotCreep) {
         if (r.table.at(k, 0) >= 20.0)
           drift = std::max(drift, std::abs(r.table.at(k, 1) - r.table.at(last, 1)));
       EXPECT_LT(drift, 1e-6) << name_of(c) << " " << step;
-      const double weight = mass * g * std::sin(std::atan(0.15));
-      EXPECT_NEAR(r.table.at(last, 3) / stiffness, weight / stiffness, 1e-5);
+      const double weight = car_mass * earth_gravity * std::sin(std::atan(0.15));
+      EXPECT_NEAR(r.table.at(last, 3) / rest_stiffness, weight / rest_stiffness, 1e-5);
     }
 }
 
@@ -166,7 +166,7 @@ TEST(ParkedVehicle, StaysInItsEquilibrium) {
         drift = std::max(drift, std::abs(r.table.at(last, k) - r.table.at(0, k)));
       for (std::size_t k = 4; k <= 7; ++k) load += r.table.at(last, k);
       EXPECT_LT(drift, 1e-6) << name_of(c) << " " << step;
-      EXPECT_NEAR(load, 1200.0 * g * std::cos(std::atan(0.15)), 1e-3);
+      EXPECT_NEAR(load, 1200.0 * earth_gravity * std::cos(std::atan(0.15)), 1e-3);
     }
 }
 

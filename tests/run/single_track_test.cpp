@@ -27,7 +27,8 @@ std::string single_track(const std::string& vehicle, double v, const std::string
   const auto tyre = [&](const char* body, double x, double load, double stiffness) {
     return fmt::format(R"({{type: linear_tyre, body: {}, at: [{}, 0, 0.3], road: flat,
       spinning: false, relaxation: false, damping_speed: 1, radius: {}, stiffness: 2.0e+5,
-      slip_stiffness: 1, cornering_stiffness: {}, friction: 100, relaxation_x: 1, relaxation_y: 1}})",
+      slip_stiffness: 1, cornering_stiffness: {}, friction: 100,
+      relaxation_x: 1, relaxation_y: 1}})",
                        body, x, 0.3 + load / 2e5, stiffness);
   };
   const double g = 9.81, front = m * g * b / (a + b), rear = m * g * a / (a + b);
@@ -52,7 +53,7 @@ simulation: {{step: 0.001, duration: 2, output_interval: 0.025}}
                      tyre("car", -b, rear, p("Cr_N_rad_axle")));
 }
 
-double apart(Complex x, Complex reference) {
+double relative_error(Complex x, Complex reference) {
   return std::abs(x - reference) / std::abs(reference);
 }
 
@@ -77,15 +78,15 @@ TEST(SingleTrack, SteadyGainsAndEigenvaluesAreTheClosedForms) {
           linear_model(model, {{"motion of steer"}, {"r", "ay", "vy"}}, {.coordinates = c});
       // Real parts are even in the frequency.
       const Gains G = gains(FrequencyResponse(linear), v, 1e-4);
-      gain = std::max({gain, apart(G.r.real(), row("yawrate_gain_1_s")),
-                       apart(G.ay.real(), row("ay_gain_m_s2_rad"))});
+      gain = std::max({gain, relative_error(G.r.real(), row("yawrate_gain_1_s")),
+                       relative_error(G.ay.real(), row("ay_gain_m_s2_rad"))});
       const auto modes = linear_modes(linear.system);
       for (const char* k : {"1", "2"}) {
         const Complex reference(row(fmt::format("lambda{}_re", k)),
                                 std::abs(row(fmt::format("lambda{}_im", k))));
         double nearest = INFINITY;
         for (const LinearMode& mode : modes)
-          nearest = std::min(nearest, apart(mode.lambda, reference));
+          nearest = std::min(nearest, relative_error(mode.lambda, reference));
         root = std::max(root, nearest);
       }
     }
@@ -107,9 +108,10 @@ TEST(SingleTrack, FrequencyResponseIsTheClosedForm) {
     const auto reference = [&](const char* gain, const char* phase) {
       return std::polar(row(gain), row(phase) * std::numbers::pi / 180.0);
     };
-    worst = std::max({worst, apart(G.r, reference("yawrate_gain_1_s", "yawrate_phase_deg")),
-                      apart(G.ay, reference("ay_gain_m_s2_rad", "ay_phase_deg")),
-                      apart(G.beta, reference("beta_gain", "beta_phase_deg"))});
+    worst =
+        std::max({worst, relative_error(G.r, reference("yawrate_gain_1_s", "yawrate_phase_deg")),
+                  relative_error(G.ay, reference("ay_gain_m_s2_rad", "ay_phase_deg")),
+                  relative_error(G.beta, reference("beta_gain", "beta_phase_deg"))});
   }
   figure("single_track_frequency_response", worst);
   EXPECT_LT(worst, 1e-8);

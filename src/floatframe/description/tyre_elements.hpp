@@ -1,6 +1,6 @@
 #pragma once
 // The structs of the tyres that roll: with slip, in both directions, on a surface. What they share
-// is a RollingTyre; model/rolling_tyre.hpp has their equations.
+// is a RollingTyre; docs/theory.md has their equations.
 #include <optional>
 #include <string>
 

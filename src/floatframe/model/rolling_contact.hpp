@@ -108,8 +108,8 @@ RoadPlane<S> plane_of_patch(const RoadUnderWheel& road, const Eigen::Matrix<S, 3
   return {S(0.25) * (front + rear + left + right), n};
 }
 
-/// How a wheel stands on its road. `radius`: unloaded, of the default patch [m]; `plate`: height and
-/// rate of a plate; `of_centre`: the slip velocity is that of the wheel centre.
+/// How a wheel stands on its road. `radius`: unloaded, of the default patch [m]; `plate`: height
+/// and rate of a plate; `of_centre`: the slip velocity is that of the wheel centre.
 template <class S>
 RollingContact<S> rolling_contact(const PortsOf<S>& in, const RollingTyre& keys, double radius,
                                   const SignalValue<S>& plate, bool of_centre = false) noexcept {

@@ -3,22 +3,21 @@
 // Contact, its frame and its motion V_cx, V_cy, Omega: rolling_contact.hpp. Slip velocities
 //   V_sx = V_cx - Omega r_e,  V_sy = V_cy;  V_sx = 0 of a wheel that rolls freely on its carrier
 // States: the deflections u, v of the carcass along and across [m],
-//   udot = -V_sx - |V_cx| u/sigma_x,  vdot = -V_sy - |V_cx| v/sigma_y                            (1)
+//   udot = -V_sx - |V_cx| u/sigma_x,  vdot = -V_sy - |V_cx| v/sigma_y                           (1)
 // and from them the slips that the law of the forces sees,
-//   kappa = (u - t_x V_sx)/sigma_x,  tan(alpha) = -(v - t_y V_sy)/sigma_y                        (2)
-//   t = k_v/(2 C) (1 + cos(pi |V_c|/v_d)) below |V_c| = v_d, 0 above                             (3)
+//   kappa = (u - t_x V_sx)/sigma_x,  tan(alpha) = -(v - t_y V_sy)/sigma_y                       (2)
+//   t = k_v/(2 C) (1 + cos(pi |V_c|/v_d)) below |V_c| = v_d, 0 above                            (3)
 // In steady rolling these are kappa = -V_sx/|V_cx|, tan(alpha) = V_cy/|V_cx|. At rest the states
 // are springs of the stiffness C = slip stiffness / sigma with the dampers k_v, so that a parked
 // vehicle stands and rocks, and |V| has no floor: nothing creeps.
 // A deflection is held where the law gives its largest force, L = (L_x, L_y), while it would grow:
 // with s = |(u/L_x, v/L_y)| and the growth g = ds/dt of (1), where g > 0,
-//   (udot, vdot) -= a g (u, v)/s,  a = (s - 1)/b above s = 1                                     (4)
-// so that s settles at 1 + b while it slides; without it a slide would wind the states up to sigma, and
-// throw the vehicle back when it ends. Of a law whose force falls beyond its limit L grows with
+//   (udot, vdot) -= a g (u, v)/s,  a = (s - 1)/b above s = 1                                    (4)
+// so that s settles at 1 + b while it slides; without it a slide would wind the states up to sigma
+// and throw the vehicle back when it ends. Of a law whose force falls beyond its limit L grows with
 // the speed of sliding up to `reach` sigma, from (3) with V_s in the place of V_c. In the air
-// states decay with the time `air_time`. Without `relaxation`: no states,
-//   kappa = -V_sx/V*, tan(alpha) = V_sy/V*, V* = |V_cx|, below v_d (V_cx^2 + v_d^2)/(2 v_d):
-// it creeps.
+// states decay with the time `air_time`. Without `relaxation` there are none, and it creeps:
+//   kappa = -V_sx/V*, tan(alpha) = V_sy/V*, V* = |V_cx|, below v_d (V_cx^2 + v_d^2)/(2 v_d)
 // Wrench at the wheel centre, with the arm to the contact point:
 //   F = F_x e_x + F_y e_y + F_z n,  T = arm x F + M_x e_x + s M_y e_y + M_z n,
 //   F_z = load(d) + c ddot,  s = w/sqrt(w^2 + v_r^2), w = Omega r_e: the sense of rolling.

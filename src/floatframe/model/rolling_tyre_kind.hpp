@@ -3,7 +3,7 @@
 // start, branches, notes, picture, and examples for the tests. Load time, but for `side`.
 //
 // States and kept numbers: u, v; and behind them, of the search for an equilibrium, where the wheel
-// began: its contact point, and its angle about the axis from e_z to e_x. At rest (element_kind.hpp)
+// began: its contact point, and its angle about the axis from e_z to e_x. At rest
 //   u = -(P - P_0).e_x + r_e (angle - angle_0),  v = -(P - P_0).e_y
 #include "floatframe/description/rules.hpp"
 #include "floatframe/model/element_data.hpp"
