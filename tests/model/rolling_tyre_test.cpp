@@ -76,6 +76,7 @@ TEST(RollingTyre, FrameOfASteeredAndCamberedWheelOnAPlane) {
 TEST(RollingTyre, SignsOfISOW) {
   LinearTyre keys = plain_tyre();
   keys.relaxation = false;
+  keys.friction = 5.0;
   ElementExample x = wheel(keys, 0.29, 20.0);
   x.markers[0].v.y() = 1.0;  // alpha > 0
   x.markers[0].w.y() *= 0.98;
