@@ -11,7 +11,8 @@
 // rest. No turn slip.
 // Where the book's print and the manual of MF-Tyre differ the manual holds, which three public
 // programs share: My with Fz0, Mx with atan((QSX6 Fz/Fz0)^2), one cosine in the residual torque,
-// equivalent slips with atan and tan, Amu = 1.
+// equivalent slips with atan and tan, Amu = 1. In the book's form the friction of Fx, Bt, Dt, Mx, My
+// and the arm of Fx keep gamma itself, and cos(alpha) is that of the angle.
 // Source: H. B. Pacejka, Tire and Vehicle Dynamics, 3rd ed. 2012, section 4.3.2, (4.E1) - (4.E78);
 // for 5.2 the equations of PAC2002.
 #include "floatframe/tyres/magic_curve.hpp"
@@ -46,9 +47,10 @@ inline constexpr double least_friction = 1e-3;
 /// What all parts of the formula share.
 template <class S>
 struct MagicState {
-  S Fz, dfz, kappa, alpha, gamma;
+  S Fz, dfz, kappa;
+  S alpha, gamma;    ///< as the form takes them: alpha* and gamma* of the book
+  S lean, cos_alpha; ///< gamma [rad] and cos(alpha) in either form
   S friction;
-  S cos_alpha;
 };
 
 /// Kx divided by Fz.
@@ -76,7 +78,7 @@ struct MagicLongitudinal {
 template <class S>
 MagicLongitudinal<S> magic_longitudinal(const MagicTyre& t, const MagicState<S>& s) noexcept {
   MagicLongitudinal<S> x;
-  const S gamma = t.gamma_x * s.gamma;
+  const S gamma = t.gamma_x * s.lean;
   const S mu = line(t.mux, s.dfz) * (1.0 - t.mux_camber * gamma * gamma);         // (4.E13)
   x.mu = at_least(mu, least_friction) * s.friction;
   x.K = magic_slip_stiffness(t, s);
@@ -162,15 +164,14 @@ template <class S>
 void magic_aligning(const MagicTyre& t, const MagicState<S>& s, const MagicLateral<S>& y,
                     const S& trailing, MagicForces<S>& f) noexcept {
   using std::abs;
-  const S gamma = t.gamma_z * s.gamma;
-  const S size = abs(gamma);
+  const S gamma = t.gamma_z * s.gamma, lean = t.gamma_z * s.lean;
   const S ratio_slip = f.Kx / f.Ky * s.kappa;
   // Trail.
   const S angle = s.alpha + line(t.SHt, s.dfz) + line(t.SHt_camber, s.dfz) * gamma;  // (4.E34)
-  const S B = parabola(t.Bt, s.dfz) * (1.0 + t.Bt_camber * gamma + t.Bt_camber_size * size) /
+  const S B = parabola(t.Bt, s.dfz) * (1.0 + t.Bt_camber * lean + t.Bt_camber_size * abs(lean)) /
               s.friction;                                                            // (4.E40)
   const S D = s.Fz * line(t.Dt, s.dfz) *
-              (1.0 + (t.Dt_camber + t.Dt_camber_square * gamma) * gamma);            // (4.E42)
+              (1.0 + (t.Dt_camber + t.Dt_camber_square * lean) * lean);            // (4.E42)
   const S E = parabola(t.Et, s.dfz) *
               (1.0 + (t.Et_side + t.Et_side_camber * gamma) * (2.0 / std::numbers::pi) *
                          arctan(S(B * t.Ct * angle)));                               // (4.E44)
@@ -180,10 +181,10 @@ void magic_aligning(const MagicTyre& t, const MagicState<S>& s, const MagicLater
   const S other = s.alpha + y.shift + y.vertical / y.K;                              // (4.E37)
   const S Br = t.Br / s.friction + t.Br_lateral * y.BC;
   const S Dr = s.Fz * (line(t.Dr, s.dfz) + (line(t.Dr_camber, s.dfz) +
-                                            line(t.Dr_camber_size, s.dfz) * size) * gamma) *
+                                            line(t.Dr_camber_size, s.dfz) * abs(gamma)) * gamma) *
                s.friction * s.cos_alpha;
   f.residual = Dr * cos_of_arctan(S(Br * magic_equivalent_angle(other, ratio_slip)));
-  const S arm = t.arm + t.arm_force * f.Fy + line(t.arm_camber, s.dfz) * s.gamma;    // (4.E76)
+  const S arm = t.arm + t.arm_force * f.Fy + line(t.arm_camber, s.dfz) * s.lean;    // (4.E76)
   f.Mz = -f.trail * trailing + f.residual + arm * f.Fx;                              // (4.E71)
 }
 
@@ -193,14 +194,14 @@ S magic_overturning(const MagicTyre& t, const MagicState<S>& s, const S& Fy) noe
   using std::cos, std::sin, std::abs;
   const auto& q = t.qsx;
   const S load = s.Fz / t.Fz0, side = Fy / t.Fz0;
-  S sum = q[0] + (-q[1] - q[11] * abs(s.gamma)) * s.gamma + q[2] * side;
+  S sum = q[0] + (-q[1] - q[11] * abs(s.lean)) * s.lean + q[2] * side;
   if (q[3] != 0.0) {
     const S reach = q[5] * load;
     sum += q[3] * cos(S(q[4] * arctan(S(reach * reach)))) *
-           sin(S(q[6] * s.gamma + q[7] * arctan(S(q[8] * side))));
+           sin(S(q[6] * s.lean + q[7] * arctan(S(q[8] * side))));
   }
-  if (q[9] != 0.0) sum += q[9] * arctan(S(q[10] * load)) * s.gamma;
-  return t.R0 * (s.Fz * sum + Fy * (q[12] + q[13] * abs(s.gamma)));
+  if (q[9] != 0.0) sum += q[9] * arctan(S(q[10] * load)) * s.lean;
+  return t.R0 * (s.Fz * sum + Fy * (q[12] + q[13] * abs(s.lean)));
 }
 
 /// Rolling resistance of a wheel that rolls forwards, (4.E70) in the form of the manual.
@@ -208,7 +209,7 @@ template <class S>
 S magic_rolling(const MagicTyre& t, const MagicState<S>& s, const S& Fx, const S& speed) noexcept {
   using std::abs, std::pow;
   const auto& q = t.qsy;
-  const S load = s.Fz / t.Fz0, square = s.gamma * s.gamma;
+  const S load = s.Fz / t.Fz0, square = s.lean * s.lean;
   const S fast = abs(speed) / t.V0, faster = fast * fast;
   const S sum = q[0] + q[1] * Fx / t.Fz0 + q[2] * fast + q[3] * faster * faster +
                 (q[4] + q[5] * load) * square;
@@ -287,6 +288,7 @@ MagicForces<S> magic_forces(const MagicTyre& t, const MagicInput<S>& in) noexcep
   s.cos_alpha = cos(angle);
   s.alpha = book ? S(sin(angle) / s.cos_alpha) : angle;                // (4.E3)
   s.gamma = book ? S(sin(gamma)) : gamma;                              // (4.E4)
+  s.lean = gamma;
   const double V = value_of(in.speed);
   MagicForces<S> f = magic_directed(t, s, in.speed, in.rolling, V < 0.0 ? -1.0 : 1.0);
   if (std::abs(V) < t.turning_speed) {
