@@ -283,6 +283,10 @@ class ElementReader {
       case K::linear_file:
         file_inputs_ = take_linear_file(self_, *value, s_, f_);
         return std::nullopt;
+      case K::file: {
+        const auto file = value->text("the name of a file");
+        return file ? std::optional(KeyValue(sibling_path(self_, *file))) : std::nullopt;
+      }
       case K::motion:
         return read_motion(self_, *value, u.displacement, Interpolation::cubic);
       case K::terms:

@@ -24,14 +24,16 @@ S free_radius(const MagicTyre& t, const S& spin) noexcept {
   return t.R0 * (t.q_re0 + t.q_v1 * turn * turn);
 }
 
-/// Load [N] of a loaded radius [m] without damping, with the forces Fx and Fy [N]; zero in the air.
+/// Load [N] of a loaded radius [m] without damping, with the forces Fx and Fy [N]; in the air it
+/// continues in a straight line below zero.
 template <class S>
 S magic_load(const MagicTyre& t, const S& radius, const S& camber, const S& spin, const S& Fx,
              const S& Fy) noexcept {
   using std::abs, std::cos, std::pow, std::sin;
   const S free = free_radius(t, spin);
+  const S faster = 1.0 + t.q_v2 * t.R0 / t.V0 * abs(spin);
   S rho = free - radius;
-  if (!(value_of(rho) > 0.0)) return 0.0;
+  if (!(value_of(rho) > 0.0)) return faster * (t.qz[0] / t.R0) * rho;
   const S gamma = t.mirror * camber;
   S side = t.q_fcy * t.mirror * Fy / t.Fz0;
   if (t.version == MagicVersion::mf62) {
@@ -43,12 +45,12 @@ S magic_load(const MagicTyre& t, const S& radius, const S& camber, const S& spin
       rho += shape * shape * (t.tread / 8.0) * abs(S(sin(gamma) / cos(gamma)));
     }
     rho -= t.q_cam[2] * tilted * abs(gamma);
-    if (!(value_of(rho) > 0.0)) return 0.0;
+    if (!(value_of(rho) > 0.0)) return faster * (t.qz[0] / t.R0) * rho;
     side = t.q_fcy * (t.mirror * Fy - skew * gamma) / t.Fz0;
     if (t.q_fcy2 != 0.0) side = side * pow(S(rho / t.R0), t.q_fcy2);
   }
   const S along = t.q_fcx * Fx / t.Fz0;
-  const S factor = 1.0 + t.q_v2 * t.R0 / t.V0 * abs(spin) - along * along - side * side;
+  const S factor = faster - along * along - side * side;
   const S x = rho / t.R0;
   S load = value_of(factor) > 0.0 ? S(factor * (t.qz[0] + t.qz[1] * x) * x) : S(0.0);
   const S bottom = t.bottom_radius - radius;
@@ -73,7 +75,7 @@ S balanced_load(const MagicTyre& t, const S& radius, const S& camber, const S& s
   using D = DualNumber<1>;
   const D r = value_of(radius), gamma = value_of(camber), omega = value_of(spin);
   double F = magic_load(t, r.v, gamma.v, omega.v, 0.0, 0.0);
-  if (!(F > 0.0)) return zero;
+  if (!(F > 0.0)) return magic_load(t, radius, camber, spin, zero, zero);
   double slope = 0.0;
   for (int k = 0; k < 12; ++k) {
     const MagicForces<D> f = forces(D::variable(F, 0));
@@ -108,10 +110,31 @@ inline MagicPatch magic_patch(const MagicTyre& t, double load) noexcept {
           t.width * (t.q_rb[0] * std::cbrt(x) + t.q_rb[1] * x)};
 }
 
+/// The slip times B at which sin(C atan(A)) is largest: A = tan(pi/(2 C)); a curve of C near 1 and
+/// below, which has no peak, is taken where it is within 1 % of its limit. Newton's method, which is
+/// monotonic here, on the value; the derivative is that of the solution.
+template <class S>
+S magic_peak(double C, const S& E) noexcept {
+  constexpr double latest = 1.43, farthest = 30.0;
+  const double target = std::tan(std::min(0.5 * std::numbers::pi / C, latest));
+  const double e = std::min(value_of(E), 1.0);
+  double y = std::min(target, farthest), slope = 1.0;
+  for (int k = 0; k < 20; ++k) {
+    slope = 1.0 - e * (1.0 - 1.0 / (1.0 + y * y));
+    const double change = (target - y + e * (y - std::atan(y))) / std::max(slope, 1e-6);
+    y = std::clamp(y + change, 0.0, farthest);
+    if (std::abs(change) <= 1e-13 * y || y == farthest) break;
+  }
+  if (y == farthest || value_of(E) > 1.0) return y;
+  return y + (target - y + E * (y - std::atan(y))) / slope;
+}
+
 template <class S>
 struct MagicLengths {
   S sigma_x = 0.0, sigma_y = 0.0;  ///< relaxation lengths [m]
   S Cx = 0.0, Cy = 0.0;            ///< stiffnesses of the standing tyre [N/m]
+  /// Slips of the largest forces on a road of friction 1, without shifts [-], [rad].
+  S peak_x = 0.0, peak_y = 0.0;
 };
 /// Relaxation lengths at a load and a camber; at zero load those of 6.x and 5.2 vanish.
 template <class S>
@@ -124,15 +147,24 @@ MagicLengths<S> magic_lengths(const MagicTyre& t, const S& load, const S& camber
   s.dfz = (s.Fz - t.nominal_load) / t.nominal_load;
   s.gamma = t.mirror * camber;
   if (t.limited) s.gamma = within(s.gamma, t.inclination.least, t.inclination.most);
-  const S Kx = magic_slip_stiffness(t, s) * load;
-  const S Ky = abs(S(magic_side_stiffness(t, s, S(t.gamma_y * s.gamma)) * load));
+  s.lean = s.gamma;
+  s.friction = 1.0;
+  s.kappa = 0.0;
+  s.alpha = 0.0;
+  const MagicLongitudinal<S> x = magic_longitudinal(t, s);
+  const MagicLateral<S> y = magic_lateral(t, s, s.gamma);
+  const S Kx = x.K * load, Ky = abs(S(y.K * load));
+  const S square = t.gamma_y * t.gamma_y * s.gamma * s.gamma;
+  l.peak_x = magic_peak(t.Cx, parabola(t.Ex, s.dfz)) * t.Cx * x.mu / x.K;
+  l.peak_y = magic_peak(t.Cy, S(line(t.Ey, s.dfz) * (1.0 + t.Ey_camber * square))) * t.Cy *
+             abs(S(y.mu / y.K));
   if (t.fixed_sigma > 0.0) {
     l.sigma_x = l.sigma_y = t.fixed_sigma;
   } else if (t.version == MagicVersion::mf52) {
     l.sigma_x = s.Fz * line(t.sigma_x, s.dfz) * exp(S(t.sigma_x_exponent * s.dfz));
-    // sin(2 atan(x)) = 2 x/(1 + x^2)
-    const S x = s.Fz / t.sigma_y_load;
-    l.sigma_y = t.sigma_y * 2.0 * x / (1.0 + x * x) *
+    // sin(2 atan(p)) = 2 p/(1 + p^2)
+    const S part = s.Fz / t.sigma_y_load;
+    l.sigma_y = t.sigma_y * 2.0 * part / (1.0 + part * part) *
                 (1.0 - t.sigma_y_camber * abs(S(t.gamma_y * s.gamma)));
   } else {
     l.Cx = parabola(t.stiffness_x, s.dfz);

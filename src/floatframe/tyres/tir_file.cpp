@@ -313,9 +313,11 @@ TirFile parse_tir(std::string_view text, const std::string& path) {
   return TirReader(text, path).read();
 }
 
-TirFile read_tir(const std::string& path) {
-  return parse_tir(regular_file(path, std::uint64_t{1} << 20), path);
+std::string tir_text(const std::string& path) {
+  return regular_file(path, std::uint64_t{1} << 20);
 }
+
+TirFile read_tir(const std::string& path) { return parse_tir(tir_text(path), path); }
 
 bool is_tir_scale(std::string_view keyword) {
   const std::optional<TirKeyword> known = tir_keyword(keyword);

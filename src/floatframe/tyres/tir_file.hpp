@@ -40,6 +40,8 @@ struct TirFile {
 /// lines that are no KEYWORD = value, numbers that are none, units that are unknown, keywords that
 /// are given twice with different values, ranges whose ends are exchanged.
 TirFile read_tir(const std::string& path);
+/// Its text, as `parse_tir` takes it.
+std::string tir_text(const std::string& path);
 /// The same of its text; `path` is the name of the file in errors.
 TirFile parse_tir(std::string_view text, const std::string& path);
 
