@@ -22,8 +22,8 @@ void compare(const TyreTable& table, std::size_t row, const std::string& column,
       << column << " of row " << table.at(row, "id");
 }
 
-MagicTyre tyre_of_row(const TirFile& file, const TyreTable& table, std::size_t row,
-                      MagicForm form, MagicSide side = MagicSide::file) {
+MagicTyre tyre_of_row(const TirFile& file, const TyreTable& table, std::size_t row, MagicForm form,
+                      MagicSide side = MagicSide::file) {
   return magic_tyre(file, {.form = form, .pressure = table.at(row, "p_Pa"), .side = side});
 }
 
@@ -84,8 +84,7 @@ TEST_P(MagicReference, RadiiPatchAndLengthsOfEveryRow) {
     const MagicInput<double> in = input_of(table, k);
     const MagicForces<double> f = magic_forces(tyre, in);
     double spin = in.speed / tyre.R0;
-    for (int i = 0; i < 60; ++i)
-      spin = in.rolling / magic_effective_radius(tyre, in.load, spin);
+    for (int i = 0; i < 60; ++i) spin = in.rolling / magic_effective_radius(tyre, in.load, spin);
     const double free = free_radius(tyre, spin);
     double low = 0.6 * free, high = free;  // the load falls with the radius
     for (int i = 0; i < 80; ++i) {
@@ -145,7 +144,7 @@ TEST(MagicFormula, RelaxationLengthsOf52) {
   }
 }
 
-/// A first-order lag of the slip angle: alpha (1 - exp(-V t/sigma)), and its gain and phase.
+/// A first-order lag of tan(alpha): 1 - exp(-V t/sigma) of it, and its gain and phase.
 TEST(MagicFormula, RelaxationInItsClosedForm) {
   const MagicTyre tyre = magic_tyre_of("a_205_60R15_mf61.tir");
   const TyreTable steps = tyre_table("relaxation_step.csv");
@@ -153,11 +152,11 @@ TEST(MagicFormula, RelaxationInItsClosedForm) {
     const double Fz = steps.at(k, "Fz_N"), V = steps.at(k, "Vx");
     const double sigma = magic_lengths(tyre, Fz, 0.0).sigma_y;
     EXPECT_NEAR(sigma, steps.at(k, "sigma_m"), 1e-8);
-    const double angle =
-        steps.at(k, "alpha_step_deg") * -std::expm1(-V * steps.at(k, "t_s") / sigma);
-    EXPECT_NEAR(angle, steps.at(k, "alpha_lagged_deg"), 1e-8);
-    const MagicForces<double> f = magic_forces(
-        tyre, MagicInput<double>{Fz, 0.0, std::tan(angle * degree), 0.0, V, V, 1.0});
+    const double lagged = std::tan(steps.at(k, "alpha_step_deg") * degree) *
+                          -std::expm1(-V * steps.at(k, "t_s") / sigma);
+    EXPECT_NEAR(std::atan(lagged) / degree, steps.at(k, "alpha_lagged_deg"), 1e-8);
+    const MagicForces<double> f =
+        magic_forces(tyre, MagicInput<double>{Fz, 0.0, lagged, 0.0, V, V, 1.0});
     EXPECT_NEAR(f.Fy, steps.at(k, "Fy_N"), 1e-8 * steps.scale("Fy_N"));
   }
   const TyreTable sines = tyre_table("relaxation_sine.csv");

@@ -216,6 +216,12 @@ class ElementReader {
     return value.is_list() ? std::optional(KeyValue(std::move(all))) : std::nullopt;
   }
 
+  /// Relative to the model file.
+  std::optional<KeyValue> file(const YamlValue& value) const {
+    const auto name = value.text("the name of a file");
+    return name ? std::optional(KeyValue(sibling_path(self_, *name))) : std::nullopt;
+  }
+
   std::optional<KeyValue> place_of(const YamlValue& value) const {
     auto section = value.section("a place {body, at}");
     return section ? read_attachment(self_, model_, *section) : std::nullopt;
@@ -283,10 +289,8 @@ class ElementReader {
       case K::linear_file:
         file_inputs_ = take_linear_file(self_, *value, s_, f_);
         return std::nullopt;
-      case K::file: {
-        const auto file = value->text("the name of a file");
-        return file ? std::optional(KeyValue(sibling_path(self_, *file))) : std::nullopt;
-      }
+      case K::file:
+        return file(*value);
       case K::motion:
         return read_motion(self_, *value, u.displacement, Interpolation::cubic);
       case K::terms:

@@ -48,8 +48,8 @@ inline constexpr double least_friction = 1e-3;
 template <class S>
 struct MagicState {
   S Fz, dfz, kappa;
-  S alpha, gamma;    ///< as the form takes them: alpha* and gamma* of the book
-  S lean, cos_alpha; ///< gamma [rad] and cos(alpha) in either form
+  S alpha, gamma;     ///< as the form takes them: alpha* and gamma* of the book
+  S lean, cos_alpha;  ///< gamma [rad] and cos(alpha) in either form
   S friction;
 };
 
@@ -79,13 +79,13 @@ template <class S>
 MagicLongitudinal<S> magic_longitudinal(const MagicTyre& t, const MagicState<S>& s) noexcept {
   MagicLongitudinal<S> x;
   const S gamma = t.gamma_x * s.lean;
-  const S mu = line(t.mux, s.dfz) * (1.0 - t.mux_camber * gamma * gamma);         // (4.E13)
+  const S mu = line(t.mux, s.dfz) * (1.0 - t.mux_camber * gamma * gamma);  // (4.E13)
   x.mu = at_least(mu, least_friction) * s.friction;
   x.K = magic_slip_stiffness(t, s);
-  const S slip = s.kappa + line(t.SHx, s.dfz);                                    // (4.E10)
-  const S E = parabola(t.Ex, s.dfz) * (1.0 - t.Ex_side * side_of(slip));          // (4.E14)
-  const S B = x.K / (t.Cx * x.mu);                                                // (4.E16)
-  x.force = x.mu * magic_sine(t.Cx, S(B * slip), E) +                             // (4.E9)
+  const S slip = s.kappa + line(t.SHx, s.dfz);                            // (4.E10)
+  const S E = parabola(t.Ex, s.dfz) * (1.0 - t.Ex_side * side_of(slip));  // (4.E14)
+  const S B = x.K / (t.Cx * x.mu);                                        // (4.E16)
+  x.force = x.mu * magic_sine(t.Cx, S(B * slip), E) +                     // (4.E9)
             line(t.SVx, s.dfz) * s.friction;
   return x;
 }
@@ -94,9 +94,9 @@ MagicLongitudinal<S> magic_longitudinal(const MagicTyre& t, const MagicState<S>&
 template <class S>
 S magic_longitudinal_weight(const MagicTyre& t, const MagicState<S>& s) noexcept {
   const S B = (t.Bxa + t.Bxa_camber * s.gamma * s.gamma) *
-              cos_of_arctan(S(t.Bxa_slip * s.kappa));        // (4.E54)
-  const S E = line(t.Exa, s.dfz);                            // (4.E56)
-  const S still = magic_cosine(t.Cxa, S(B * t.SHxa), E);     // (4.E52)
+              cos_of_arctan(S(t.Bxa_slip * s.kappa));                // (4.E54)
+  const S E = line(t.Exa, s.dfz);                                    // (4.E56)
+  const S still = magic_cosine(t.Cxa, S(B * t.SHxa), E);             // (4.E52)
   return magic_cosine(t.Cxa, S(B * (s.alpha + t.SHxa)), E) / still;  // (4.E51)
 }
 
@@ -104,9 +104,9 @@ S magic_longitudinal_weight(const MagicTyre& t, const MagicState<S>& s) noexcept
 template <class S>
 struct MagicLateral {
   S force, K, mu;
-  S shift;      ///< SHy
-  S vertical;   ///< SVy/Fz
-  S BC;         ///< By Cy
+  S shift;     ///< SHy
+  S vertical;  ///< SVy/Fz
+  S BC;        ///< By Cy
 };
 template <class S>
 MagicLateral<S> magic_lateral(const MagicTyre& t, const MagicState<S>& s,
@@ -114,18 +114,17 @@ MagicLateral<S> magic_lateral(const MagicTyre& t, const MagicState<S>& s,
   MagicLateral<S> y;
   const S gamma = t.gamma_y * camber;
   const S square = gamma * gamma;
-  const S mu = line(t.muy, s.dfz) * (1.0 - t.muy_camber * square);         // (4.E23)
+  const S mu = line(t.muy, s.dfz) * (1.0 - t.muy_camber * square);  // (4.E23)
   y.mu = t.muy_side * at_least(mu, least_friction) * s.friction;
   y.K = magic_side_stiffness(t, s, gamma);
-  const S tilted = line(t.SVygamma, s.dfz) * gamma * s.friction;           // (4.E28)
-  y.vertical = line(t.SVy, s.dfz) * s.friction + tilted;                   // (4.E29)
-  y.shift = line(t.SHy, s.dfz) + t.SHy_camber * gamma;                     // (4.E27)
-  if (t.version != MagicVersion::mf52)
-    y.shift += (line(t.Kygamma, s.dfz) * gamma - tilted) / y.K;
-  const S slip = s.alpha + y.shift;                                        // (4.E20)
-  const S E = line(t.Ey, s.dfz) * (1.0 + t.Ey_camber * square -
-                                   (t.Ey_side + t.Ey_side_camber * gamma) * side_of(slip));
-  y.BC = y.K / y.mu;                                                       // (4.E26)
+  const S tilted = line(t.SVygamma, s.dfz) * gamma * s.friction;  // (4.E28)
+  y.vertical = line(t.SVy, s.dfz) * s.friction + tilted;          // (4.E29)
+  y.shift = line(t.SHy, s.dfz) + t.SHy_camber * gamma;            // (4.E27)
+  if (t.version != MagicVersion::mf52) y.shift += (line(t.Kygamma, s.dfz) * gamma - tilted) / y.K;
+  const S slip = s.alpha + y.shift;  // (4.E20)
+  const S E = line(t.Ey, s.dfz) *
+              (1.0 + t.Ey_camber * square - (t.Ey_side + t.Ey_side_camber * gamma) * side_of(slip));
+  y.BC = y.K / y.mu;                                                         // (4.E26)
   y.force = y.mu * magic_sine(t.Cy, S(y.BC / t.Cy * slip), E) + y.vertical;  // (4.E19)
   return y;
 }
@@ -146,8 +145,8 @@ template <class S>
 S magic_slip_force(const MagicTyre& t, const MagicState<S>& s, const S& mu) noexcept {
   using std::sin;
   const S most = mu * (line(t.SVyk, s.dfz) + t.SVyk_camber * s.gamma) *
-                 cos_of_arctan(S(t.SVyk_angle * s.alpha));                  // (4.E67)
-  return most * sin(S(t.SVyk_sine * arctan(S(t.SVyk_slip * s.kappa))));     // (4.E66)
+                 cos_of_arctan(S(t.SVyk_angle * s.alpha));               // (4.E67)
+  return most * sin(S(t.SVyk_sine * arctan(S(t.SVyk_slip * s.kappa))));  // (4.E66)
 }
 
 /// The angle of a slip with the longitudinal one beside it, without its sign: atan(sqrt(tan^2 a +
@@ -169,23 +168,24 @@ void magic_aligning(const MagicTyre& t, const MagicState<S>& s, const MagicLater
   // Trail.
   const S angle = s.alpha + line(t.SHt, s.dfz) + line(t.SHt_camber, s.dfz) * gamma;  // (4.E34)
   const S B = parabola(t.Bt, s.dfz) * (1.0 + t.Bt_camber * lean + t.Bt_camber_size * abs(lean)) /
-              s.friction;                                                            // (4.E40)
+              s.friction;  // (4.E40)
   const S D = s.Fz * line(t.Dt, s.dfz) *
-              (1.0 + (t.Dt_camber + t.Dt_camber_square * lean) * lean);            // (4.E42)
+              (1.0 + (t.Dt_camber + t.Dt_camber_square * lean) * lean);  // (4.E42)
   const S E = parabola(t.Et, s.dfz) *
               (1.0 + (t.Et_side + t.Et_side_camber * gamma) * (2.0 / std::numbers::pi) *
-                         arctan(S(B * t.Ct * angle)));                               // (4.E44)
+                         arctan(S(B * t.Ct * angle)));  // (4.E44)
   f.trail = D * magic_cosine(t.Ct, S(B * magic_equivalent_angle(angle, ratio_slip)), E) *
-            s.cos_alpha;                                                             // (4.E73)
+            s.cos_alpha;  // (4.E73)
   // Residual torque, (4.E45) - (4.E47), (4.E75).
-  const S other = s.alpha + y.shift + y.vertical / y.K;                              // (4.E37)
+  const S other = s.alpha + y.shift + y.vertical / y.K;  // (4.E37)
   const S Br = t.Br / s.friction + t.Br_lateral * y.BC;
-  const S Dr = s.Fz * (line(t.Dr, s.dfz) + (line(t.Dr_camber, s.dfz) +
-                                            line(t.Dr_camber_size, s.dfz) * abs(gamma)) * gamma) *
+  const S Dr = s.Fz *
+               (line(t.Dr, s.dfz) +
+                (line(t.Dr_camber, s.dfz) + line(t.Dr_camber_size, s.dfz) * abs(gamma)) * gamma) *
                s.friction * s.cos_alpha;
   f.residual = Dr * cos_of_arctan(S(Br * magic_equivalent_angle(other, ratio_slip)));
-  const S arm = t.arm + t.arm_force * f.Fy + line(t.arm_camber, s.dfz) * s.lean;    // (4.E76)
-  f.Mz = -f.trail * trailing + f.residual + arm * f.Fx;                              // (4.E71)
+  const S arm = t.arm + t.arm_force * f.Fy + line(t.arm_camber, s.dfz) * s.lean;  // (4.E76)
+  f.Mz = -f.trail * trailing + f.residual + arm * f.Fx;                           // (4.E71)
 }
 
 /// Overturning moment, (4.E69).
@@ -228,9 +228,9 @@ MagicForces<S> magic_forward(const MagicTyre& t, const MagicState<S>& s, const S
   f.muy = y.mu;
   f.Kx = s.Fz * x.K;
   f.Ky = s.Fz * y.K;
-  f.Fx = s.Fz * x.force * magic_longitudinal_weight(t, s);     // (4.E50)
+  f.Fx = s.Fz * x.force * magic_longitudinal_weight(t, s);  // (4.E50)
   const S lateral = s.Fz * weight * y.force;
-  f.Fy = lateral + s.Fz * magic_slip_force(t, s, y.mu);        // (4.E58)
+  f.Fy = lateral + s.Fz * magic_slip_force(t, s, y.mu);  // (4.E58)
   S trailing = lateral;
   if (t.version != MagicVersion::mf52)
     trailing = s.Fz * weight * magic_lateral(t, s, S(0.0)).force;  // (4.E74)
@@ -275,7 +275,7 @@ MagicForces<S> magic_forces(const MagicTyre& t, const MagicInput<S>& in) noexcep
   const double m = t.mirror;
   MagicState<S> s;
   s.Fz = t.limited ? within(in.load, t.load.least, t.load.most) : in.load;
-  s.dfz = (s.Fz - t.nominal_load) / t.nominal_load;                    // (4.E2)
+  s.dfz = (s.Fz - t.nominal_load) / t.nominal_load;  // (4.E2)
   s.friction = value_of(in.friction) < 1e-6 ? S(1e-6) : in.friction;
   s.kappa = t.limited ? within(in.kappa, t.slip.least, t.slip.most) : in.kappa;
   S angle = m * arctan(in.tan_alpha);
@@ -286,8 +286,8 @@ MagicForces<S> magic_forces(const MagicTyre& t, const MagicInput<S>& in) noexcep
   }
   const bool book = t.form == MagicForm::book;
   s.cos_alpha = cos(angle);
-  s.alpha = book ? S(sin(angle) / s.cos_alpha) : angle;                // (4.E3)
-  s.gamma = book ? S(sin(gamma)) : gamma;                              // (4.E4)
+  s.alpha = book ? S(sin(angle) / s.cos_alpha) : angle;  // (4.E3)
+  s.gamma = book ? S(sin(gamma)) : gamma;                // (4.E4)
   s.lean = gamma;
   const double V = value_of(in.speed);
   MagicForces<S> f = magic_directed(t, s, in.speed, in.rolling, V < 0.0 ? -1.0 : 1.0);
@@ -317,8 +317,8 @@ S bounded_speed(const S& x, double floor) noexcept {
 /// The steady input of velocities of the contact point [m/s]: Vcx, Vcy of the wheel, Vsx = Vcx -
 /// Re omega; Vsy = Vcy. Slips are divided by at least half the floor.
 template <class S>
-MagicInput<S> steady_input(const S& load, const S& Vcx, const S& Vsx, const S& Vcy,
-                           const S& camber, double floor = 0.1) noexcept {
+MagicInput<S> steady_input(const S& load, const S& Vcx, const S& Vsx, const S& Vcy, const S& camber,
+                           double floor = 0.1) noexcept {
   const S speed = bounded_speed(Vcx, floor);
   return {load, -Vsx / speed, Vcy / speed, camber, Vcx, Vcx - Vsx, 1.0};
 }

@@ -95,8 +95,7 @@ S balanced_load(const MagicTyre& t, const S& radius, const S& camber, const S& s
 template <class S>
 S magic_effective_radius(const MagicTyre& t, const S& load, const S& spin) noexcept {
   const S x = load / t.Fz0;
-  return free_radius(t, spin) -
-         t.Fz0 / t.Cz * (t.dreff * arctan(S(t.breff * x)) + t.freff * x);
+  return free_radius(t, spin) - t.Fz0 / t.Cz * (t.dreff * arctan(S(t.breff * x)) + t.freff * x);
 }
 
 /// Half length and half width of the contact patch [m].

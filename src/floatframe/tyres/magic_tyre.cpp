@@ -51,11 +51,15 @@ class MagicReader {
     switch (type) {
       case 6:
       case 21:
-      case 52: return MagicVersion::mf52;
+      case 52:
+        return MagicVersion::mf52;
       case 60:
-      case 61: return MagicVersion::mf61;
-      case 62: return MagicVersion::mf62;
-      default: break;
+      case 61:
+        return MagicVersion::mf61;
+      case 62:
+        return MagicVersion::mf62;
+      default:
+        break;
     }
     const std::string format = file_.word("PROPERTY_FILE_FORMAT");
     if (type == 0 && (format == "PAC2002" || format == "MF_05")) return MagicVersion::mf52;
@@ -106,8 +110,8 @@ class MagicReader {
     need_positive("VERTICAL_STIFFNESS", "N/m");
     if (file_.has("LONGVL")) need_positive("LONGVL", "m/s");
     if (file_.has("NOMPRES")) need_positive("NOMPRES", "Pa");
-    for (const char* keyword : {"PCX1", "PDX1", "PKX1", "PCY1", "LFZO", "LCX", "LMUX", "LKX", "LCY",
-                                "LMUY", "LKY"})
+    for (const char* keyword :
+         {"PCX1", "PDX1", "PKX1", "PCY1", "LFZO", "LCX", "LMUX", "LKX", "LCY", "LMUY", "LKY"})
       need_positive(keyword);
     for (const char* keyword : {"PDY1", "PKY1", "PKY2"}) need_other_than_zero(keyword);
     if (file_.number("PKY1") * file_.number("PKY2") > 0.0)

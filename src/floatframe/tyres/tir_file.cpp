@@ -133,9 +133,9 @@ class TirReader {
     in_table_ = false;
     const std::size_t end = line.find(']', begin);
     if (end == std::string_view::npos)
-      return error(ErrorCode::wrong_value, mark(begin),
-                   fmt::format("found the section {}, expected a ] behind it",
-                               shown(line.substr(begin))));
+      return error(
+          ErrorCode::wrong_value, mark(begin),
+          fmt::format("found the section {}, expected a ] behind it", shown(line.substr(begin))));
     section_ = in_capitals(line.substr(begin + 1, end - begin - 1));
     if (end + 1 != line.size())
       return error(ErrorCode::wrong_value, mark(end + 1),
@@ -206,8 +206,8 @@ class TirReader {
       // A keyword is looked up a hundred times at most: what is no tyre file has many.
       const std::string hint =
           suggestions_++ < most_suggestions ? did_you_mean(keyword, tir_keyword_names()) : "";
-      return note(fmt::format("line {}: the unknown keyword {} is ignored{}", line_,
-                              shown(keyword), hint));
+      return note(
+          fmt::format("line {}: the unknown keyword {} is ignored{}", line_, shown(keyword), hint));
     }
     if (known->dimension != Dim::word && entry.is_word) {
       double x = 0.0;
@@ -248,22 +248,43 @@ class TirReader {
     const double length = unit("LENGTH", Dim::length), force = unit("FORCE", Dim::force);
     const double angle = unit("ANGLE", Dim::angle), mass = unit("MASS", Dim::mass);
     const double time = unit("TIME", Dim::speed);
-    const double pressure = units_.contains("PRESSURE") ? unit("PRESSURE", Dim::pressure)
-                                                        : force / (length * length);
+    const double pressure =
+        units_.contains("PRESSURE") ? unit("PRESSURE", Dim::pressure) : force / (length * length);
     for (auto& [keyword, entry] : file_.entries) {
       switch (tir_keyword(keyword)->dimension) {
         case Dim::none:
-        case Dim::word: break;
-        case Dim::length: entry.number *= length; break;
-        case Dim::speed: entry.number *= length / time; break;
-        case Dim::angle: entry.number *= angle; break;
-        case Dim::mass: entry.number *= mass; break;
-        case Dim::inertia: entry.number *= mass * length * length; break;
-        case Dim::force: entry.number *= force; break;
-        case Dim::stiffness: entry.number *= force / length; break;
-        case Dim::damping: entry.number *= force * time / length; break;
-        case Dim::pressure: entry.number *= pressure; break;
-        case Dim::per_length: entry.number /= length; break;
+        case Dim::word:
+          break;
+        case Dim::length:
+          entry.number *= length;
+          break;
+        case Dim::speed:
+          entry.number *= length / time;
+          break;
+        case Dim::angle:
+          entry.number *= angle;
+          break;
+        case Dim::mass:
+          entry.number *= mass;
+          break;
+        case Dim::inertia:
+          entry.number *= mass * length * length;
+          break;
+        case Dim::force:
+          entry.number *= force;
+          break;
+        case Dim::stiffness:
+          entry.number *= force / length;
+          break;
+        case Dim::damping:
+          entry.number *= force * time / length;
+          break;
+        case Dim::pressure:
+          entry.number *= pressure;
+          break;
+        case Dim::per_length:
+          entry.number /= length;
+          break;
       }
     }
   }
@@ -313,9 +334,7 @@ TirFile parse_tir(std::string_view text, const std::string& path) {
   return TirReader(text, path).read();
 }
 
-std::string tir_text(const std::string& path) {
-  return regular_file(path, std::uint64_t{1} << 20);
-}
+std::string tir_text(const std::string& path) { return regular_file(path, std::uint64_t{1} << 20); }
 
 TirFile read_tir(const std::string& path) { return parse_tir(tir_text(path), path); }
 
