@@ -216,6 +216,11 @@ class ElementReader {
     return value.is_list() ? std::optional(KeyValue(std::move(all))) : std::nullopt;
   }
 
+  static std::optional<KeyValue> word(const YamlValue& value, const ElementKey& key) {
+    const auto k = value.word(key.words);
+    return k ? std::optional(KeyValue(static_cast<int>(*k))) : std::nullopt;
+  }
+
   /// Relative to the model file.
   std::optional<KeyValue> file(const YamlValue& value) const {
     const auto name = value.text("the name of a file");
@@ -248,10 +253,8 @@ class ElementReader {
         return direction(*value, key.kind == K::vector);
       case K::number:
         return value->number(key.rule);
-      case K::word: {
-        const auto k = value->word(key.words);
-        return k ? std::optional(KeyValue(static_cast<int>(*k))) : std::nullopt;
-      }
+      case K::word:
+        return word(*value, key);
       case K::flag:
         return value->boolean();
       case K::spring:

@@ -11,8 +11,8 @@
 // rest. No turn slip.
 // Where the book's print and the manual of MF-Tyre differ the manual holds, which three public
 // programs share: My with Fz0, Mx with atan((QSX6 Fz/Fz0)^2), one cosine in the residual torque,
-// equivalent slips with atan and tan, Amu = 1. In the book's form the friction of Fx, Bt, Dt, Mx, My
-// and the arm of Fx keep gamma itself, and cos(alpha) is that of the angle.
+// equivalent slips with atan and tan, Amu = 1. In the book's form the friction of Fx, Bt, Dt, Mx,
+// My and the arm of Fx keep gamma itself, and cos(alpha) is that of the angle.
 // Source: H. B. Pacejka, Tire and Vehicle Dynamics, 3rd ed. 2012, section 4.3.2, (4.E1) - (4.E78);
 // for 5.2 the equations of PAC2002.
 #include "floatframe/tyres/magic_curve.hpp"
@@ -158,13 +158,13 @@ S magic_equivalent_angle(const S& angle, const S& slip) noexcept {
   return atan2(S(sqrt(S(s * s + slip * slip * c * c))), S(abs(c)));
 }
 
-/// Trail, residual torque and the aligning moment of them.
+/// Trail, residual torque and the aligning moment of them. `Kx` is divided by Fz.
 template <class S>
-void magic_aligning(const MagicTyre& t, const MagicState<S>& s, const MagicLateral<S>& y,
-                    const S& trailing, MagicForces<S>& f) noexcept {
+void magic_aligning(const MagicTyre& t, const MagicState<S>& s, const S& Kx,
+                    const MagicLateral<S>& y, const S& trailing, MagicForces<S>& f) noexcept {
   using std::abs;
   const S gamma = t.gamma_z * s.gamma, lean = t.gamma_z * s.lean;
-  const S ratio_slip = f.Kx / f.Ky * s.kappa;
+  const S ratio_slip = Kx / y.K * s.kappa;
   // Trail.
   const S angle = s.alpha + line(t.SHt, s.dfz) + line(t.SHt_camber, s.dfz) * gamma;  // (4.E34)
   const S B = parabola(t.Bt, s.dfz) * (1.0 + t.Bt_camber * lean + t.Bt_camber_size * abs(lean)) /
@@ -234,7 +234,7 @@ MagicForces<S> magic_forward(const MagicTyre& t, const MagicState<S>& s, const S
   S trailing = lateral;
   if (t.version != MagicVersion::mf52)
     trailing = s.Fz * weight * magic_lateral(t, s, S(0.0)).force;  // (4.E74)
-  magic_aligning(t, s, y, trailing, f);
+  magic_aligning(t, s, x.K, y, trailing, f);
   f.Mx = magic_overturning(t, s, f.Fy);
   f.My = magic_rolling(t, s, f.Fx, speed) * smooth_sign(rolling, t.turning_speed);
   return f;

@@ -110,8 +110,8 @@ inline MagicPatch magic_patch(const MagicTyre& t, double load) noexcept {
 }
 
 /// The slip times B at which sin(C atan(A)) is largest: A = tan(pi/(2 C)); a curve of C near 1 and
-/// below, which has no peak, is taken where it is within 1 % of its limit. Newton's method, which is
-/// monotonic here, on the value; the derivative is that of the solution.
+/// below, which has no peak, is taken where it is within 1 % of its limit. Newton's method on the
+/// value, which is monotonic here; the derivative is that of the solution.
 template <class S>
 S magic_peak(double C, const S& E) noexcept {
   constexpr double latest = 1.43, farthest = 30.0;

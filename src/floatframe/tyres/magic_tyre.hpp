@@ -110,8 +110,8 @@ struct MagicTyre {
 
 /// The tyre of a file. Coefficients that it lacks are zero, scale factors 1, PKY4 2, QSY7 1, LONGVL
 /// 16.7 m/s; relaxation lengths R0 without structural stiffnesses or PTX and PTY; Re is Rl + 2/3 of
-/// the deflection without BREFF, DREFF and FREFF. Throws InputError with the place in the file where
-/// a coefficient that the formulas divide by is missing, zero or of the wrong sign.
+/// the deflection without BREFF, DREFF and FREFF. Throws InputError with the place in the file
+/// where a coefficient that the formulas divide by is missing, zero or of the wrong sign.
 MagicTyre magic_tyre(const TirFile& file, const MagicOptions& options = {});
 
 }  // namespace floatframe
