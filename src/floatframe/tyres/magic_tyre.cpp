@@ -47,23 +47,14 @@ class MagicReader {
   }
 
   MagicVersion version() {
-    const int type = file_.has("FITTYP") ? static_cast<int>(file_.number("FITTYP")) : 0;
-    switch (type) {
-      case 6:
-      case 21:
-      case 52:
-        return MagicVersion::mf52;
-      case 60:
-      case 61:
-        return MagicVersion::mf61;
-      case 62:
-        return MagicVersion::mf62;
-      default:
-        break;
-    }
+    const double type = file_.number("FITTYP");
+    if (type == 6.0 || type == 21.0 || type == 52.0) return MagicVersion::mf52;
+    if (type == 60.0 || type == 61.0) return MagicVersion::mf61;
+    if (type == 62.0) return MagicVersion::mf62;
+    const bool missing = !file_.has("FITTYP");
     const std::string format = file_.word("PROPERTY_FILE_FORMAT");
-    if (type == 0 && (format == "PAC2002" || format == "MF_05")) return MagicVersion::mf52;
-    if (type == 0 && !file_.has("FITTYP"))
+    if (missing && (format == "PAC2002" || format == "MF_05")) return MagicVersion::mf52;
+    if (missing)
       error(ErrorCode::missing, "FITTYP",
             "FITTYP: found none, expected 6, 21 or 52 (MF 5.2), 60, 61 (MF 6.1) or 62 (MF 6.2)");
     else

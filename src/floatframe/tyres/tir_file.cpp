@@ -19,7 +19,7 @@ namespace floatframe {
 namespace {
 
 using Dim = TirDimension;
-constexpr std::size_t most_tir_errors = 20, most_tir_notes = 50;
+constexpr std::size_t most_tir_errors = 20, most_tir_notes = 50, longest_keyword = 40;
 
 std::string in_capitals(std::string_view text) {
   std::string out(text);
@@ -75,7 +75,7 @@ std::errc tir_number(std::string_view text, double& value) {
   const auto [rest, error] = std::from_chars(digits.data(), end, value);
   if (error != std::errc()) return error;
   if (rest != end) return std::errc::invalid_argument;
-  return std::isfinite(value) ? std::errc() : std::errc::result_out_of_range;
+  return std::isfinite(value * value) ? std::errc() : std::errc::result_out_of_range;
 }
 
 class TirReader {
@@ -155,7 +155,7 @@ class TirReader {
                                shown(line.substr(begin))));
     const std::string_view name = trimmed_right(line.substr(begin, equals - begin));
     const std::string keyword = in_capitals(name);
-    if (!is_identifier(keyword))
+    if (!is_identifier(keyword) || keyword.size() > longest_keyword)
       return error(ErrorCode::wrong_value, mark(begin),
                    fmt::format("found '{}' before =, expected a keyword", shown(name)));
     if (section_.empty())
