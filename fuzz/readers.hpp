@@ -29,6 +29,7 @@
 #include "floatframe/formats/text/text_source.hpp"
 #include "floatframe/history/history_blocks.hpp"
 #include "floatframe/history/state_history.hpp"
+#include "floatframe/tyres/magic_tyre.hpp"
 #include "packets.hpp"
 
 namespace floatframe::fuzz {
@@ -63,6 +64,8 @@ inline void abaqus(std::string_view bytes) {
   source.may_make(may_make);
   use(read_abaqus(source, {}));
 }
+
+inline void tir(std::string_view bytes) { magic_tyre(parse_tir(bytes, "fuzz.tir")); }
 
 inline void ansys(std::string_view bytes) {
   TextSource source(std::string(bytes), "fuzz.cdb");
@@ -231,6 +234,7 @@ inline constexpr Reader readers[] = {
     {"geometry", geometry},
     {"udp", udp},
     {"history", history},
+    {"tir", tir},
 };
 
 /// Reads and forgets. Everything but an InputError is an error of the reader.

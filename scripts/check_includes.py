@@ -42,9 +42,11 @@ ALLOWED = {
     # A library of its own, which no other room may include.
     "decks": FE | {"formats", "formats/nastran", "formats/text", "formats/written"},
     "parts": FE | {"body", "reduction", "formats", "formats/body_file", "formats/sid", "formats/text", "formats/written"},
+    # Formulas of tyres, and readers of their files.
+    "tyres": {"core", "math"},
     # What the user says, and its checks.
     "description": FE | {"formulas", "roads", "body", "reduction"},
-    "model": FE | {"formulas", "roads", "body", "reduction", "inertia", "description"},
+    "model": FE | {"formulas", "roads", "body", "reduction", "inertia", "description", "tyres"},
     "formulation": {"core", "math", "formulas", "roads", "body", "inertia", "description", "model"},
     "integrator": {"core", "math", "formulas", "roads", "body", "inertia", "description", "model", "formulation"},
     # From the model at rest to results: each uses those before it.

@@ -83,6 +83,8 @@ std::string value_text(const ElementKey& key) {
       return "list of names";
     case K::linear_file:
       return "a `.npz` or `.mat` of [`linearize`](vibrations.md)";
+    case K::file:
+      return "name of a file";
     case K::motion:
       return "[function of time](#functions-of-time) " + units(key, "[x]");
     case K::terms:

@@ -99,6 +99,7 @@ ElementDescription random_force(ElementType type, const RandomForceEnds& ends,
       case K::matrix:
       case K::names:
       case K::linear_file:
+      case K::file:
         return std::nullopt;
     }
     return std::nullopt;

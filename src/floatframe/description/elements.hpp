@@ -359,7 +359,8 @@ struct Delay {
   entry(journal_bearing, JournalBearing) \
   entry(curve_on_curve, CurveOnCurve)   \
   entry(slide_along, SlideAlong) \
-  entry(linear_tyre, LinearTyre)
+  entry(linear_tyre, LinearTyre) \
+  entry(magic_formula_tyre, MagicFormulaTyre)
 // clang-format on
 
 #define FLOATFRAME_ENTRY(name, Keys) name,

@@ -48,7 +48,8 @@ enum class KeyKind {
   shape,             ///< a formula of one variable, the only one of `words`
   numbers,           ///< a row, one of each of `words`, valid as in `rule`
   names,             ///< a list of names
-  linear_file        ///< its matrices and names are those of other keys (linear_file.hpp)
+  linear_file,       ///< its matrices and names are those of other keys (linear_file.hpp)
+  file               ///< its path; the kind reads it when it builds, and keeps its content hash
 };
 
 /// The quantity that laws and signals refer to: a displacement, a rotation, or the coordinate of

@@ -88,7 +88,7 @@ struct ElementValidation {
       case K::formula:
         formula(key, std::get<SharedFormula>(*x));
         break;
-      default:  // flags, stops, names and files of linear systems
+      default:  // flags, stops, names and files
         break;
     }
     return entity.errors.size() == before;

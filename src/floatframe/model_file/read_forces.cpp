@@ -216,6 +216,17 @@ class ElementReader {
     return value.is_list() ? std::optional(KeyValue(std::move(all))) : std::nullopt;
   }
 
+  static std::optional<KeyValue> word(const YamlValue& value, const ElementKey& key) {
+    const auto k = value.word(key.words);
+    return k ? std::optional(KeyValue(static_cast<int>(*k))) : std::nullopt;
+  }
+
+  /// Relative to the model file.
+  std::optional<KeyValue> file(const YamlValue& value) const {
+    const auto name = value.text("the name of a file");
+    return name ? std::optional(KeyValue(sibling_path(self_, *name))) : std::nullopt;
+  }
+
   std::optional<KeyValue> place_of(const YamlValue& value) const {
     auto section = value.section("a place {body, at}");
     return section ? read_attachment(self_, model_, *section) : std::nullopt;
@@ -242,10 +253,8 @@ class ElementReader {
         return direction(*value, key.kind == K::vector);
       case K::number:
         return value->number(key.rule);
-      case K::word: {
-        const auto k = value->word(key.words);
-        return k ? std::optional(KeyValue(static_cast<int>(*k))) : std::nullopt;
-      }
+      case K::word:
+        return word(*value, key);
       case K::flag:
         return value->boolean();
       case K::spring:
@@ -283,6 +292,8 @@ class ElementReader {
       case K::linear_file:
         file_inputs_ = take_linear_file(self_, *value, s_, f_);
         return std::nullopt;
+      case K::file:
+        return file(*value);
       case K::motion:
         return read_motion(self_, *value, u.displacement, Interpolation::cubic);
       case K::terms:

@@ -1,0 +1,180 @@
+#pragma once
+// Radii, load, patch and relaxation lengths of a Magic Formula tyre. R_omega = R0 (q_re0 + q_v1
+// (R0 omega/V0)^2) is the free radius of the spinning tyre, rho = R_omega - Rl its deflection:
+//   6.1  Fz = (1 + q_v2 R0 |omega|/V0 - (q_fcx Fx/Fz0)^2 - (q_fcy Fy/Fz0)^2) Q(rho) (1 + ppz dpi)
+//        Q(rho) = (q_fz1 rho/R0 + q_fz2 (rho/R0)^2) Fz0
+//   6.2  as 6.1, with rho changed by the camber and (rho/R0)^q_fcy2 q_fcy (Fy - S gamma)/Fz0
+//   5.2  Fz = Cz rho
+//   Re = R_omega - Fz0/Cz (dreff atan(breff Fz/Fz0) + freff Fz/Fz0)
+//   6.x  sigma_x = Kx/Cx, sigma_y = |Kya|/Cy;   5.2  by PTX and PTY
+// Fz depends on Fx and Fy, which depend on Fz: a small fixed point (balanced_load).
+// Source: I. J. M. Besselink et al., The Magic Formula/Swift tyre model that can handle inflation
+// pressure changes, Vehicle System Dynamics 48 (2010); Pacejka 2012, chapter 9; for the load of
+// 6.2 the manual of MF-Tyre 6.2; for 5.2 PAC2002.
+#include <algorithm>
+
+#include "floatframe/tyres/magic_formula.hpp"
+
+namespace floatframe {
+
+/// Free radius of the tyre at an angular velocity [m], [rad/s].
+template <class S>
+S free_radius(const MagicTyre& t, const S& spin) noexcept {
+  const S turn = t.R0 / t.V0 * spin;
+  return t.R0 * (t.q_re0 + t.q_v1 * turn * turn);
+}
+
+/// Load [N] of a loaded radius [m] without damping, with the forces Fx and Fy [N]; in the air it
+/// continues in a straight line below zero.
+template <class S>
+S magic_load(const MagicTyre& t, const S& radius, const S& camber, const S& spin, const S& Fx,
+             const S& Fy) noexcept {
+  using std::abs, std::cos, std::pow, std::sin;
+  const S free = free_radius(t, spin);
+  const S faster = 1.0 + t.q_v2 * t.R0 / t.V0 * abs(spin);
+  S rho = free - radius;
+  if (!(value_of(rho) > 0.0)) return faster * (t.qz[0] / t.R0) * rho;
+  const S gamma = t.mirror * camber;
+  S side = t.q_fcy * t.mirror * Fy / t.Fz0;
+  if (t.version == MagicVersion::mf62) {
+    const S ratio = radius / free;
+    const S skew = t.q_fys[0] + (t.q_fys[1] + t.q_fys[2] * ratio) * ratio;
+    const S tilted = rho;
+    if (t.q_cam[0] != 0.0 || t.q_cam[1] != 0.0) {
+      const S shape = (t.q_cam[0] + t.q_cam[1] * radius) * ratio / (t.q_cam[0] + t.q_cam[1] * free);
+      rho += shape * shape * (t.tread / 8.0) * abs(S(sin(gamma) / cos(gamma)));
+    }
+    rho -= t.q_cam[2] * tilted * abs(gamma);
+    if (!(value_of(rho) > 0.0)) return faster * (t.qz[0] / t.R0) * rho;
+    side = t.q_fcy * (t.mirror * Fy - skew * gamma) / t.Fz0;
+    if (t.q_fcy2 != 0.0) side = side * pow(S(rho / t.R0), t.q_fcy2);
+  }
+  const S along = t.q_fcx * Fx / t.Fz0;
+  const S factor = faster - along * along - side * side;
+  const S x = rho / t.R0;
+  S load = value_of(factor) > 0.0 ? S(factor * (t.qz[0] + t.qz[1] * x) * x) : S(0.0);
+  const S bottom = t.bottom_radius - radius;
+  if (value_of(bottom) > 0.0) load += t.bottom_stiffness * bottom;
+  return load;
+}
+
+/// True if the load depends on the forces of the contact point.
+inline bool load_depends_on_forces(const MagicTyre& t) noexcept {
+  return t.q_fcx != 0.0 || t.q_fcy != 0.0;
+}
+
+/// Load [N] of a loaded radius [m] where the forces are those of this load: Fz = G(Fz), G(F) =
+/// magic_load with Fx(F) and Fy(F). `forces(F)` gives a MagicForces over the scalar of F, where all
+/// but the load are held. At most twelve iterations by Newton's method; G' is about -0.1, so three
+/// do. Derivatives are those of the solution: dFz = dG/(1 - G').
+template <class S, class Forces>
+S balanced_load(const MagicTyre& t, const S& radius, const S& camber, const S& spin,
+                const Forces& forces) noexcept {
+  const S zero = 0.0;
+  if (!load_depends_on_forces(t)) return magic_load(t, radius, camber, spin, zero, zero);
+  using D = DualNumber<1>;
+  const D r = value_of(radius), gamma = value_of(camber), omega = value_of(spin);
+  double F = magic_load(t, r.v, gamma.v, omega.v, 0.0, 0.0);
+  if (!(F > 0.0)) return magic_load(t, radius, camber, spin, zero, zero);
+  double slope = 0.0;
+  for (int k = 0; k < 12; ++k) {
+    const MagicForces<D> f = forces(D::variable(F, 0));
+    const D G = magic_load(t, r, gamma, omega, f.Fx, f.Fy);
+    slope = std::min(G.d[0], 0.9);
+    const double change = (G.v - F) / (1.0 - slope);
+    F = std::max(F + change, 0.0);
+    if (!(F > 0.0) || std::abs(change) <= 1e-14 * F) break;
+  }
+  if (!(F > 0.0)) return zero;
+  const MagicForces<S> f = forces(S(F));
+  const S G = magic_load(t, radius, camber, spin, S(f.Fx), S(f.Fy));
+  return F + (G - F) / (1.0 - slope);
+}
+
+/// Effective rolling radius [m]: Vx = Re omega of a wheel that rolls freely.
+template <class S>
+S magic_effective_radius(const MagicTyre& t, const S& load, const S& spin) noexcept {
+  const S x = load / t.Fz0;
+  return free_radius(t, spin) - t.Fz0 / t.Cz * (t.dreff * arctan(S(t.breff * x)) + t.freff * x);
+}
+
+/// Half length and half width of the contact patch [m].
+struct MagicPatch {
+  double length = 0.0, width = 0.0;
+};
+inline MagicPatch magic_patch(const MagicTyre& t, double load) noexcept {
+  if (!(load > 0.0)) return {};
+  const double x = load / (t.Cz * t.R0);
+  return {t.R0 * (t.q_ra[0] * std::sqrt(x) + t.q_ra[1] * x),
+          t.width * (t.q_rb[0] * std::cbrt(x) + t.q_rb[1] * x)};
+}
+
+/// The slip times B at which sin(C atan(A)) is largest: A = tan(pi/(2 C)); a curve of C near 1 and
+/// below, which has no peak, is taken where it is within 1 % of its limit. Newton's method on the
+/// value, which is monotonic here; the derivative is that of the solution.
+template <class S>
+S magic_peak(double C, const S& E) noexcept {
+  constexpr double latest = 1.43, farthest = 30.0;
+  const double target = std::tan(std::min(0.5 * std::numbers::pi / C, latest));
+  const double e = std::min(value_of(E), 1.0);
+  double y = std::min(target, farthest), slope = 1.0;
+  for (int k = 0; k < 20; ++k) {
+    slope = 1.0 - e * (1.0 - 1.0 / (1.0 + y * y));
+    const double change = (target - y + e * (y - std::atan(y))) / std::max(slope, 1e-6);
+    y = std::clamp(y + change, 0.0, farthest);
+    if (std::abs(change) <= 1e-13 * y || y == farthest) break;
+  }
+  if (y == farthest || value_of(E) > 1.0) return y;
+  return y + (target - y + E * (y - std::atan(y))) / slope;
+}
+
+template <class S>
+struct MagicLengths {
+  S sigma_x = 0.0, sigma_y = 0.0;  ///< relaxation lengths [m]
+  S Cx = 0.0, Cy = 0.0;            ///< stiffnesses of the standing tyre [N/m]
+  /// Slips of the largest forces on a road of friction 1, without shifts [-], [rad].
+  S peak_x = 0.0, peak_y = 0.0;
+};
+/// Relaxation lengths at a load and a camber; at zero load those of 6.x and 5.2 vanish.
+template <class S>
+MagicLengths<S> magic_lengths(const MagicTyre& t, const S& load, const S& camber) noexcept {
+  using std::exp, std::abs;
+  MagicLengths<S> l;
+  if (!(value_of(load) > 0.0)) return l;
+  MagicState<S> s;
+  s.Fz = t.limited ? within(load, t.load.least, t.load.most) : load;
+  s.dfz = (s.Fz - t.nominal_load) / t.nominal_load;
+  s.gamma = t.mirror * camber;
+  if (t.limited) s.gamma = within(s.gamma, t.inclination.least, t.inclination.most);
+  s.lean = s.gamma;
+  s.friction = 1.0;
+  s.kappa = 0.0;
+  s.alpha = 0.0;
+  const MagicLongitudinal<S> x = magic_longitudinal(t, s);
+  const MagicLateral<S> y = magic_lateral(t, s, s.gamma);
+  const S Kx = x.K * load, Ky = abs(S(y.K * load));
+  const S square = t.gamma_y * t.gamma_y * s.gamma * s.gamma;
+  l.peak_x = magic_peak(t.Cx, parabola(t.Ex, s.dfz)) * t.Cx * x.mu / x.K;
+  l.peak_y = magic_peak(t.Cy, S(line(t.Ey, s.dfz) * (1.0 + t.Ey_camber * square))) * t.Cy *
+             abs(S(y.mu / y.K));
+  if (t.fixed_sigma > 0.0) {
+    l.sigma_x = l.sigma_y = t.fixed_sigma;
+  } else if (t.version == MagicVersion::mf52) {
+    l.sigma_x = s.Fz * line(t.sigma_x, s.dfz) * exp(S(t.sigma_x_exponent * s.dfz));
+    // sin(2 atan(p)) = 2 p/(1 + p^2)
+    const S part = s.Fz / t.sigma_y_load;
+    l.sigma_y = t.sigma_y * 2.0 * part / (1.0 + part * part) *
+                (1.0 - t.sigma_y_camber * abs(S(t.gamma_y * s.gamma)));
+  } else {
+    l.Cx = parabola(t.stiffness_x, s.dfz);
+    l.Cy = parabola(t.stiffness_y, s.dfz);
+    l.sigma_x = Kx / l.Cx;
+    l.sigma_y = Ky / l.Cy;
+    return l;
+  }
+  l.Cx = Kx / l.sigma_x;
+  l.Cy = Ky / l.sigma_y;
+  return l;
+}
+
+}  // namespace floatframe
