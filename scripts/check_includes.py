@@ -13,7 +13,7 @@ import sys
 
 # room -> rooms it may include. CONTRIBUTING.md draws the same picture.
 FE = {"core", "math", "fe"}
-DYNAMICS = {"core", "math", "formulas", "body", "inertia", "description", "model", "formulation", "integrator"}
+DYNAMICS = {"core", "math", "formulas", "roads", "body", "inertia", "description", "model", "formulation", "integrator"}
 RUNS = {"loops", "start", "reactions", "stepping", "run"}
 # The library floatframe_tools (src/CMakeLists.txt). Only the command line uses it besides.
 TOOLS = {"advice", "history", "results", "page", "export", "realtime", "sweep", "validation", "analyses"}
@@ -22,6 +22,7 @@ ALLOWED = {
     "core": set(),
     "math": {"core"},
     "formulas": {"core", "math"},
+    "roads": {"core", "math", "formulas"},
     "fe": {"core", "math"},
     "body": FE,
     "reduction": FE | {"body"},
@@ -42,10 +43,10 @@ ALLOWED = {
     "decks": FE | {"formats", "formats/nastran", "formats/text", "formats/written"},
     "parts": FE | {"body", "reduction", "formats", "formats/body_file", "formats/sid", "formats/text", "formats/written"},
     # What the user says, and its checks.
-    "description": FE | {"formulas", "body", "reduction"},
-    "model": FE | {"formulas", "body", "reduction", "inertia", "description"},
-    "formulation": {"core", "math", "formulas", "body", "inertia", "description", "model"},
-    "integrator": {"core", "math", "formulas", "body", "inertia", "description", "model", "formulation"},
+    "description": FE | {"formulas", "roads", "body", "reduction"},
+    "model": FE | {"formulas", "roads", "body", "reduction", "inertia", "description"},
+    "formulation": {"core", "math", "formulas", "roads", "body", "inertia", "description", "model"},
+    "integrator": {"core", "math", "formulas", "roads", "body", "inertia", "description", "model", "formulation"},
     # From the model at rest to results: each uses those before it.
     "loops": DYNAMICS,
     "start": DYNAMICS | {"loops"},
@@ -56,7 +57,7 @@ ALLOWED = {
     "rotors": DYNAMICS | RUNS | {"linear"},
     "advice": DYNAMICS | RUNS | {"linear"},
     "yaml": {"core", "math", "formulas"},
-    "model_file": FE | {"formulas", "body", "reduction", "description", "model", "formats/body_file", "formats/geometry", "formats/matlab", "formats/sid", "parts",
+    "model_file": FE | {"formulas", "roads", "body", "reduction", "description", "model", "formats/body_file", "formats/geometry", "formats/matlab", "formats/sid", "parts",
                    "yaml"},
     "history": DYNAMICS | RUNS,
     "results": DYNAMICS | RUNS,
@@ -73,7 +74,7 @@ ALLOWED = {
 }
 
 # Rooms, and single files, that public headers may reach.
-PUBLIC = {"core", "math", "formulas", "body", "inertia", "fe", "reduction", "formats", "formats/body_file", "formats/sid", "parts", "description",
+PUBLIC = {"core", "math", "formulas", "roads", "body", "inertia", "fe", "reduction", "formats", "formats/body_file", "formats/sid", "parts", "description",
           "model", "model_file",
           "formulation/counts.hpp", "loops", "start", "stepping", "run", "linear", "rotors", "advice", "history", "page", "results", "analyses", "realtime", "sweep"}
 FOREIGN = re.compile(r'\s*#\s*include\s*<(?!floatframe/)(?!Eigen/)([^>]*[./-][^>]*)>')

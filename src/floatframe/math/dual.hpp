@@ -54,6 +54,13 @@ DualNumber<n> chained(double f, double df, const DualNumber<n>& x) noexcept {
   return {f, df * x.d};
 }
 inline double chained(double f, double, double) noexcept { return f; }
+/// f(x, y) of a function with the value f and the slopes f_x, f_y there.
+template <int n>
+DualNumber<n> chained(double f, double f_x, const DualNumber<n>& x, double f_y,
+                      const DualNumber<n>& y) noexcept {
+  return {f, f_x * x.d + f_y * y.d};
+}
+inline double chained(double f, double, double, double, double) noexcept { return f; }
 
 /// At zero, where it has no derivative, that is taken as zero: a length of nothing stays at rest.
 template <int n>

@@ -1,6 +1,7 @@
 #pragma once
 // Road profiles: height over x, a piecewise polynomial plus cosine bumps.
 #include "floatframe/model/model.hpp"
+#include "floatframe/roads/surface_point.hpp"
 
 namespace floatframe {
 
@@ -11,5 +12,7 @@ struct RoadPoint {
 RoadPoint road_at(const Road& road, double x) noexcept;
 /// On one segment, also beyond its edges (math/piecewise_polynomial.hpp).
 RoadPoint road_at(const Road& road, std::size_t stretch, double x) noexcept;
+/// The surface above (x, y), in world axes; that of a profile does not depend on y. Step time.
+SurfacePoint surface_at(const Road& road, double x, double y) noexcept;
 
 }  // namespace floatframe

@@ -1,0 +1,52 @@
+#pragma once
+// The structs of the tyres that roll: with slip, in both directions, on a surface. What they share
+// is a RollingTyre; model/rolling_tyre.hpp has their equations.
+#include <optional>
+#include <string>
+
+#include "floatframe/description/attachment.hpp"
+#include "floatframe/math/types.hpp"
+
+namespace floatframe {
+
+/// The side of the vehicle: data of the other side are mirrored.
+enum class TyreSide { left, right };
+/// Of one point, or of four around it, whose mean height and plane count.
+enum class TyreContact { point, patch };
+
+/// A tyre on a wheel. Axes of its results are those of ISO-W: x forwards in the plane of the wheel,
+/// z normal to the road, y to the left.
+struct RollingTyre {
+  AttachmentDescription centre;  ///< of the wheel
+  Vec3 axis = Vec3::UnitY();     ///< of the wheel, to the left
+  std::string road;
+  /// The body turns with the wheel. Else it carries the axle of a wheel that rolls freely: it has
+  /// no longitudinal slip, and no torque about the axis reaches the body.
+  bool spinning = true;
+  TyreSide side = TyreSide::left;
+  TyreContact contact = TyreContact::point;
+  std::optional<double> patch_length;     ///< [m]; absent: 0.2 radii
+  std::optional<double> patch_width;      ///< [m]; absent: 0.3 radii
+  std::optional<SignalDescription> lift;  ///< height of a plate under this tyre [m]
+  double damping = 0.0;                   ///< of the deflection [N s/m]
+  bool relaxation = true;                 ///< slips follow the motion along a length
+  std::optional<double> rest_damping;     ///< of the slip at rest [N s/m]; absent: 3 ms x stiffness
+  double damping_speed = 2.5;             ///< at which it has faded out [m/s]
+};
+
+/// Vertical spring, slip stiffnesses, trail and a limit of friction.
+struct LinearTyre : RollingTyre {
+  double radius = 0.0;                 ///< unloaded [m]
+  double stiffness = 0.0;              ///< vertical [N/m]
+  double slip_stiffness = 0.0;         ///< dFx/dkappa [N]
+  double cornering_stiffness = 0.0;    ///< -dFy/dtan(alpha) [N]
+  double camber_stiffness = 0.0;       ///< -dFy/dgamma [N/rad]
+  std::optional<double> nominal_load;  ///< these three are of, and proportional to [N]; absent:
+                                       ///< they do not depend on the load
+  double trail = 0.0;                  ///< pneumatic [m]
+  double friction = 1.0;               ///< limit of the horizontal force over the load
+  double relaxation_x = 0.0, relaxation_y = 0.0;  ///< lengths sigma [m]
+  double rolling_resistance = 0.0;                ///< torque over load and radius
+};
+
+}  // namespace floatframe

@@ -1,0 +1,388 @@
+#pragma once
+// The law of a tyre that rolls, over any scalar; what is special of a kind is in its Law (below).
+// Contact, its frame and its motion V_cx, V_cy, Omega: rolling_contact.hpp. Slip velocities
+//   V_sx = V_cx - Omega r_e,  V_sy = V_cy;  V_sx = 0 of a wheel that rolls freely on its carrier
+// States: the deflections u, v of the carcass along and across [m],
+//   udot = -V_sx - |V_cx| u/sigma_x,  vdot = -V_sy - |V_cx| v/sigma_y                            (1)
+// and from them the slips that the law of the forces sees,
+//   kappa = (u - t_x V_sx)/sigma_x,  tan(alpha) = -(v - t_y V_sy)/sigma_y                        (2)
+//   t = k_v/(2 C) (1 + cos(pi |V_c|/v_d)) below |V_c| = v_d, 0 above                             (3)
+// In steady rolling these are kappa = -V_sx/|V_cx|, tan(alpha) = V_cy/|V_cx|. At rest the states
+// are springs of the stiffness C = slip stiffness / sigma with the dampers k_v, so that a parked
+// vehicle stands and rocks, and |V| has no floor: nothing creeps.
+// A deflection is held where the law gives its largest force, L = (L_x, L_y), while it would grow:
+// with s = |(u/L_x, v/L_y)| and the growth g = ds/dt of (1), where g > 0,
+//   (udot, vdot) -= a g (u, v)/s,  a = (s - 1 + b)/b above s = 1 - b                             (4)
+// so that s settles at 1 while it slides; without it a slide would wind the states up to sigma, and
+// throw the vehicle back when it ends. Of a law whose force falls beyond its limit L grows with
+// the speed of sliding up to `reach` sigma, from (3) with V_s in the place of V_c. In the air
+// states decay with the time `air_time`. Without `relaxation`: no states,
+//   kappa = -V_sx/V*, tan(alpha) = V_sy/V*, V* = sqrt(V_cx^2 + (v_d/10)^2): such a tyre creeps.
+// Wrench at the wheel centre, with the arm to the contact point:
+//   F = F_x e_x + F_y e_y + F_z n,  T = arm x F + M_x e_x + s M_y e_y + M_z n,
+//   F_z = load(d) + c ddot,  s = w/sqrt(w^2 + v_r^2), w = Omega r_e: the sense of rolling.
+// On a carrier F_x = s M_y/r_l, w = V_cx, and the part of T along the axis is left out.
+// A tyre of the other side sees -gamma, -tan(alpha) and gives -F_y, -M_x, -M_z.
+//   rows   F_z: load' / (e_z.n), c / (e_z.n) along n at P; F_x, F_y: their slopes over V_sx, V_sy
+//          with u, v following, along e_x, e_y at P, as far as they damp. They leave out what the
+//          horizontal forces have of load and position, the turning of the frame, moments.
+//   energy that of F_z(d) if the law has it, else d F_z/2, and C_x u^2/2 + C_y v^2/2
+// Branches: pieces of a road under the wheel centre, each with and without contact, as of `tyre`.
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include "floatframe/model/rolling_contact.hpp"
+
+namespace floatframe {
+
+/// What the forces of a tyre are made of; angles in rad. `load` is positive.
+template <class S>
+struct TyreInput {
+  S load;               ///< F_z [N]
+  S kappa, tan_alpha;   ///< (2), with their sign at forward and backward rolling: -V_sx/|V_cx|, ...
+  S camber;             ///< gamma > 0: the top leans to the right
+  S v_cx, v_sx, v_sy;   ///< the motion itself [m/s]
+  S spin;               ///< Omega [rad/s]
+  S deflection;         ///< d [m]
+  double friction = 1;  ///< factor of the road
+};
+
+/// In ISO-W. M_y is that of a wheel that rolls forwards.
+template <class S>
+struct TyreForces {
+  S F_x = 0.0, F_y = 0.0;             ///< [N]
+  S M_x = 0.0, M_y = 0.0, M_z = 0.0;  ///< [N m]
+  S friction_use = 0.0;               ///< horizontal force over the largest possible one
+};
+
+/// Of the carcass and the contact, at a load and camber.
+template <class S>
+struct TyreLengths {
+  S sigma_x, sigma_y;          ///< relaxation lengths, positive [m]
+  S stiffness_x, stiffness_y;  ///< C of u and v at rest [N/m]
+  S limit_x, limit_y;          ///< L of (4) [m], times the friction of the road
+};
+
+/// A Law is a struct of static members:
+///   using Keys = ...: the description, a RollingTyre; using Data = ...: what `build` computes
+///   static constexpr bool falls;         the force falls beyond the limit: L grows, see above
+///   static constexpr bool slip_of_centre;  slips are those of the wheel centre
+///   double radius(const Keys&, const Data&)        unloaded [m]
+///   bool mirrored(const Keys&, const Data&)        its data are of the other side
+/// and, templates over S:
+///   S load(keys, data, S deflection, S camber, S spin)   without damping; smooth below 0 as well
+///   S effective_radius(keys, data, S load, S deflection, S spin)
+///   TyreLengths<S> lengths(keys, data, S load, S camber, double friction)
+///   TyreForces<S> forces(keys, data, const TyreInput<S>&)
+///   S energy(keys, data, S deflection)                     may be absent
+/// S: double, Dual, DualNumber<1> and DualNumber<4>.
+
+namespace rolling {
+inline constexpr double blend = 0.02;        ///< b of (4)
+inline constexpr double steepest = 100.0;    ///< a of (4) does not exceed it
+inline constexpr double reach = 10.0;        ///< slip up to which a deflection follows in a slide
+inline constexpr double air_time = 0.01;     ///< [s]
+inline constexpr double rest_time = 3e-3;    ///< k_v/C without `rest_damping` [s]
+inline constexpr double sense_speed = 0.1;   ///< v_r [m/s]
+inline constexpr double least_limit = 1e-9;  ///< of a tyre that hardly touches [m]
+}  // namespace rolling
+
+/// |x|, with the derivative 0 at 0.
+inline double magnitude(double x) noexcept { return std::abs(x); }
+template <int n>
+DualNumber<n> magnitude(const DualNumber<n>& x) noexcept {
+  return chained(std::abs(x.v), x.v > 0.0 ? 1.0 : x.v < 0.0 ? -1.0 : 0.0, x);
+}
+
+/// 1/2 (1 + cos(pi speed/full)), 0 above `full`
+template <class S>
+S fading(const S& speed, double full) noexcept {
+  using std::cos;
+  if (value_of(speed) >= full) return 0.0;
+  return 0.5 + 0.5 * cos(S((std::numbers::pi / full) * speed));
+}
+
+/// What the horizontal forces depend on beside the states.
+template <class S>
+struct RollingMotion {
+  S load, deflection, camber, v_cx, v_sx, v_sy, spin;
+  double friction = 1.0;
+  template <class T>
+  RollingMotion<T> over() const noexcept {
+    return {T(load), T(deflection), T(camber), T(v_cx), T(v_sx), T(v_sy), T(spin), friction};
+  }
+};
+
+/// Forces, and the rates of the states.
+template <class S>
+struct RollingForces {
+  TyreForces<S> of;
+  S kappa = 0.0, tan_alpha = 0.0;
+  S u_rate = 0.0, v_rate = 0.0;
+  S energy = 0.0;
+};
+
+/// L of (4)
+template <class S>
+S rolling_limit(bool falls, const S& limit, const S& sigma, const S& still) noexcept {
+  const S least = value_of(limit) > rolling::least_limit ? limit : S(rolling::least_limit);
+  if (!falls) return least;
+  return least + (S(1.0) - still) * (rolling::reach * sigma);
+}
+
+/// (4)
+template <class S>
+void hold_deflections(const S& L_x, const S& L_y, const S& u, const S& v,
+                      RollingForces<S>& out) noexcept {
+  using std::sqrt;
+  const S a = u / L_x, b = v / L_y, s = sqrt(S(a * a + b * b));
+  if (value_of(s) <= 1.0 - rolling::blend) return;
+  const S growth = (a * out.u_rate / L_x + b * out.v_rate / L_y) / s;
+  if (value_of(growth) <= 0.0) return;
+  S part = (s - (1.0 - rolling::blend)) / rolling::blend;
+  if (value_of(part) > rolling::steepest) part = rolling::steepest;
+  const S pull = part * growth / s;
+  out.u_rate -= pull * u;
+  out.v_rate -= pull * v;
+}
+
+/// (1) to (4), and the law. `mirrored`: the data are of the other side.
+template <class Law, class S>
+RollingForces<S> rolling_forces(const typename Law::Keys& keys, const typename Law::Data& data,
+                                const RollingMotion<S>& m, const S* states,
+                                const double* rest_slopes) noexcept {
+  using std::sqrt;
+  RollingForces<S> out;
+  const S speed = magnitude(m.v_cx);
+  if (states) {
+    const S& u = states[0];
+    const S& v = states[1];
+    const TyreLengths<S> l = Law::lengths(keys, data, m.load, m.camber, m.friction);
+    const S slow = fading(S(sqrt(S(m.v_cx * m.v_cx + m.v_sy * m.v_sy))), keys.damping_speed);
+    const S t_x = slow * (keys.rest_damping ? S(*keys.rest_damping / l.stiffness_x)
+                                            : S(rolling::rest_time)),
+            t_y = slow * (keys.rest_damping ? S(*keys.rest_damping / l.stiffness_y)
+                                            : S(rolling::rest_time));
+    out.kappa = (u - t_x * m.v_sx) / l.sigma_x;       // (2)
+    out.tan_alpha = -(v - t_y * m.v_sy) / l.sigma_y;  // (2)
+    if (rest_slopes) {
+      out.u_rate = -rest_slopes[0] * m.v_sx;
+      out.v_rate = -rest_slopes[1] * m.v_sy;
+    } else {
+      out.u_rate = -m.v_sx - speed * u / l.sigma_x;  // (1)
+      out.v_rate = -m.v_sy - speed * v / l.sigma_y;  // (1)
+      S still = 1.0;
+      if constexpr (Law::falls)
+        still = fading(S(sqrt(S(m.v_sx * m.v_sx + m.v_sy * m.v_sy))), keys.damping_speed);
+      hold_deflections(rolling_limit(Law::falls, l.limit_x, l.sigma_x, still),
+                       rolling_limit(Law::falls, l.limit_y, l.sigma_y, still), u, v, out);
+    }
+    out.energy = 0.5 * (l.stiffness_x * u * u + l.stiffness_y * v * v);
+  } else {
+    const double least = 0.1 * keys.damping_speed;
+    const S along = sqrt(S(m.v_cx * m.v_cx + least * least));
+    out.kappa = -m.v_sx / along;
+    out.tan_alpha = m.v_sy / along;
+  }
+  const double side = Law::mirrored(keys, data) ? -1.0 : 1.0;
+  out.of =
+      Law::forces(keys, data,
+                  TyreInput<S>{m.load, out.kappa, S(side * out.tan_alpha), S(side * m.camber),
+                               m.v_cx, m.v_sx, S(side * m.v_sy), m.spin, m.deflection, m.friction});
+  out.of.F_y *= side;
+  out.of.M_x *= side;
+  out.of.M_z *= side;
+  return out;
+}
+
+/// Signals: the plate of the user, and what lifts the road in linear systems.
+inline constexpr std::size_t plate_of_tyre = 0, road_under_tyre = 1;
+template <class S>
+SignalValue<S> rolling_plate(const PortsOf<S>& in) noexcept {
+  const SignalValue<S> plate = in.signal(plate_of_tyre), road = in.signal(road_under_tyre);
+  return {S(plate.f + road.f), plate.df + road.df, plate.ddf + road.ddf};
+}
+
+template <class Law, class S>
+RollingContact<S> contact_of_tyre(const PortsOf<S>& in) noexcept {
+  const auto& keys = in.template keys<typename Law::Keys>();
+  return rolling_contact(in, keys, Law::radius(keys, in.template data<typename Law::Data>()),
+                         rolling_plate(in), Law::slip_of_centre);
+}
+
+/// F_z with its damping, and what it follows from.
+template <class S>
+struct RollingLoad {
+  S deflection = 0.0, load = 0.0;
+  double stiffness = 0.0;  ///< of doubles
+  bool touches = false;
+};
+template <class Law, class S>
+RollingLoad<S> rolling_load(const PortsOf<S>& in, const RollingContact<S>& c) noexcept {
+  const auto& keys = in.template keys<typename Law::Keys>();
+  const auto& data = in.template data<typename Law::Data>();
+  RollingLoad<S> l;
+  if (!c.found) return l;
+  l.deflection = Law::radius(keys, data) - c.loaded_radius;
+  const double side = Law::mirrored(keys, data) ? -1.0 : 1.0;
+  const S camber = side * c.camber;
+  if constexpr (std::is_same_v<S, double>) {
+    using T = DualNumber<1>;
+    const T spring = Law::load(keys, data, T::variable(l.deflection, 0), T(camber), T(c.spin));
+    l.load = spring.v;
+    l.stiffness = spring.d[0];
+  } else {
+    l.load = Law::load(keys, data, l.deflection, camber, c.spin);
+  }
+  l.load += keys.damping * c.sinking;
+  l.touches = in.branch == free_branch ? value_of(l.deflection) > 0.0 && value_of(l.load) > 0.0
+                                       : RollingBranch{in.branch}.touches();
+  return l;
+}
+
+/// The values of a rolling tyre, in the order of `rolling_values`.
+enum RollingValue : std::size_t {
+  longitudinal_force,
+  lateral_force,
+  overturning_moment,
+  rolling_moment,
+  aligning_moment,
+  longitudinal_slip,
+  slip_angle,
+  camber_angle,
+  tyre_deflection,
+  loaded_radius,
+  effective_radius,
+  contact_x,
+  contact_y,
+  contact_z,
+  friction_use
+};
+inline std::vector<std::string> rolling_values(const ElementKeys&) {
+  return {"load",           "longitudinal_force", "lateral_force",     "overturning_moment",
+          "rolling_moment", "aligning_moment",    "longitudinal_slip", "slip_angle",
+          "camber",         "deflection",         "loaded_radius",     "effective_radius",
+          "contact_x",      "contact_y",          "contact_z",         "friction_use"};
+}
+
+/// Rows of the normal force and of the two in the road (element_evaluation.hpp). `slopes`: over u,
+/// v, V_sx, V_sy.
+void add_rolling_rows(const Ports& in, const RollingContact<double>& c, double stiffness,
+                      double damping, bool spinning, const RollingForces<DualNumber<4>>& slopes,
+                      Efforts& out) noexcept;
+
+/// The sense of rolling of a wheel whose tread moves at this speed.
+template <class S>
+S sense_of_rolling(const S& speed) noexcept {
+  using std::sqrt;
+  return speed / S(sqrt(S(speed * speed + rolling::sense_speed * rolling::sense_speed)));
+}
+
+/// Of a tyre in the air its states decay.
+template <class S>
+void rolling_in_air(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
+  for (int i = 0; i < in.element.states; ++i) {
+    out.state_rates[i] = -in.state(i) / rolling::air_time;
+    if constexpr (std::is_same_v<S, double>)
+      out.state_slopes[i * in.element.states + i] = -1.0 / rolling::air_time;
+  }
+}
+
+/// Wrench and values.
+template <class S>
+void put_rolling_forces(const RollingContact<S>& c, const RollingMotion<S>& m, const S& r_e,
+                        bool spinning, const RollingForces<S>& f, EffortsOf<S>& out) noexcept {
+  using V = Eigen::Matrix<S, 3, 1>;
+  using std::atan2;
+  S F_x = f.of.F_x;
+  const S M_y = f.of.M_y * sense_of_rolling(spinning ? S(m.spin * r_e) : m.v_cx);
+  if (!spinning) F_x = M_y / c.loaded_radius;
+  const V F = F_x * c.e_x + f.of.F_y * c.e_y + out.force * c.n;
+  V T = c.arm.cross(F) + f.of.M_x * c.e_x + M_y * c.e_y + f.of.M_z * c.n;
+  if (!spinning) T -= S(T.dot(c.axis)) * c.axis;
+  out.wrench[0] = {F, T};
+  out.further[longitudinal_force] = F_x;
+  out.further[lateral_force] = f.of.F_y;
+  out.further[overturning_moment] = f.of.M_x;
+  out.further[rolling_moment] = M_y;
+  out.further[aligning_moment] = f.of.M_z;
+  out.further[longitudinal_slip] = f.kappa;
+  out.further[slip_angle] = atan2(f.tan_alpha, S(1.0));
+  out.further[friction_use] = f.of.friction_use;
+}
+
+template <class Law, class S>
+void rolling_tyre_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
+  const auto& keys = in.template keys<typename Law::Keys>();
+  const auto& data = in.template data<typename Law::Data>();
+  const RollingContact<S> c = contact_of_tyre<Law>(in);
+  out.length = c.height;
+  out.rate = c.height_rate;
+  const RollingLoad<S> l = rolling_load<Law>(in, c);
+  if (c.found) {
+    out.further[camber_angle] = c.camber;
+    out.further[tyre_deflection] = l.deflection;
+    out.further[loaded_radius] = c.loaded_radius;
+    for (int i = 0; i < 3; ++i) out.further[contact_x + i] = c.point[i];
+  }
+  if (!l.touches) return rolling_in_air(in, out);
+  out.force = l.load;
+  if (value_of(l.load) <= 0.0) {  // on a branch that a step leaves
+    out.wrench[0].F = l.load * c.n;
+    out.wrench[0].T = c.arm.cross(out.wrench[0].F);
+    return rolling_in_air(in, out);
+  }
+  const S r_e = Law::effective_radius(keys, data, l.load, l.deflection, c.spin);
+  out.further[effective_radius] = r_e;
+  RollingMotion<S> m{l.load, l.deflection, c.camber,  c.v_cx, S(c.v_cx - c.spin * r_e),
+                     c.v_cy, c.spin,       c.friction};
+  if (!keys.spinning) {
+    m.v_sx = 0.0;
+    m.spin = c.v_cx / r_e;
+  }
+  const bool states = in.element.states > 0;
+  if constexpr (std::is_same_v<S, double>) {
+    using T = DualNumber<4>;
+    RollingMotion<T> at = m.template over<T>();
+    if (keys.spinning) at.v_sx = T::variable(m.v_sx, 2);
+    at.v_sy = T::variable(m.v_sy, 3);
+    const T z[] = {T::variable(states ? in.state(0) : 0.0, 0),
+                   T::variable(states ? in.state(1) : 0.0, 1)};
+    const RollingForces<T> f =
+        rolling_forces<Law, T>(keys, data, at, states ? z : nullptr, in.rest_slopes);
+    const RollingForces<double> value{
+        {f.of.F_x.v, f.of.F_y.v, f.of.M_x.v, f.of.M_y.v, f.of.M_z.v, f.of.friction_use.v},
+        f.kappa.v,
+        f.tan_alpha.v,
+        f.u_rate.v,
+        f.v_rate.v,
+        f.energy.v};
+    put_rolling_forces(c, m, r_e, keys.spinning, value, out);
+    out.energy = value.energy;
+    if (states) {
+      out.state_rates[0] = value.u_rate;
+      out.state_rates[1] = value.v_rate;
+      for (int i = 0; i < 2; ++i) {
+        out.state_slopes[i] = f.u_rate.d[i];
+        out.state_slopes[2 + i] = f.v_rate.d[i];
+      }
+    }
+    add_rolling_rows(in, c, l.stiffness, keys.damping, keys.spinning, f, out);
+  } else {
+    const RollingForces<S> f =
+        rolling_forces<Law, S>(keys, data, m, states ? in.states : nullptr, in.rest_slopes);
+    put_rolling_forces(c, m, r_e, keys.spinning, f, out);
+    out.energy = f.energy;
+    if (states) {
+      out.state_rates[0] = f.u_rate;
+      out.state_rates[1] = f.v_rate;
+    }
+  }
+  if constexpr (requires { Law::energy(keys, data, l.deflection); })
+    out.energy += Law::energy(keys, data, l.deflection);
+  else
+    out.energy += 0.5 * l.load * l.deflection;
+}
+
+}  // namespace floatframe
