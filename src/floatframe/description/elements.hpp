@@ -16,6 +16,7 @@
 #include "floatframe/description/coupling_elements.hpp"
 #include "floatframe/description/force_function.hpp"
 #include "floatframe/description/held_elements.hpp"
+#include "floatframe/description/tyre_elements.hpp"
 
 namespace floatframe {
 
@@ -357,7 +358,8 @@ struct Delay {
   entry(point_on_curve, PointOnCurve)   \
   entry(journal_bearing, JournalBearing) \
   entry(curve_on_curve, CurveOnCurve)   \
-  entry(slide_along, SlideAlong)
+  entry(slide_along, SlideAlong) \
+  entry(linear_tyre, LinearTyre)
 // clang-format on
 
 #define FLOATFRAME_ENTRY(name, Keys) name,

@@ -44,19 +44,25 @@ void ElementStates::release(std::size_t element) noexcept {
 void ElementStates::begin_deflection(std::size_t element, const Ports& in) noexcept {
   const auto deflection = element_kind(model_.elements[element].type).deflection;
   if (!deflection) return;
-  const int at = offsets_[element];
-  places_[at] = deflection(in).place;
-  deflects_[at] = z_[at] == 0.0;
-  rest_slopes_[at] = 0.0;
+  for (int i = 0; i < model_.elements[element].states; ++i) {
+    const int at = offsets_[element] + i;
+    places_[at] = deflection(in, i).place;
+    deflects_[at] = z_[at] == 0.0;
+    rest_slopes_[at] = 0.0;
+  }
 }
 
 void ElementStates::deflect(std::size_t element, const Ports& in) noexcept {
-  const int at = offsets_[element];
-  if (!follow_ || weight_ > 0.0 || !deflects_[at]) return;
-  const Deflection now = element_kind(model_.elements[element].type).deflection(in);
-  const double moved = now.place - places_[at];
-  z_[at] = std::clamp(moved, -now.largest, now.largest);  // (2)
-  rest_slopes_[at] = std::abs(moved) < now.largest ? 1.0 : 0.0;
+  if (!follow_ || weight_ > 0.0) return;
+  for (int i = 0; i < model_.elements[element].states; ++i) {
+    const int at = offsets_[element] + i;
+    if (!deflects_[at]) continue;
+    const Deflection now = element_kind(model_.elements[element].type).deflection(in, i);
+    double moved = now.place - places_[at];
+    if (now.period > 0.0) moved -= now.period * std::round(moved / now.period);
+    z_[at] = std::clamp(moved, -now.largest, now.largest);  // (2)
+    rest_slopes_[at] = std::abs(moved) < now.largest ? 1.0 : 0.0;
+  }
 }
 
 void ElementStates::hold_drifting(std::size_t element, Eigen::Index row,

@@ -60,8 +60,8 @@ class ElementStates {
   void begin_deflection(std::size_t element, const Ports& in) noexcept;
   /// (2), if states follow at rest.
   void deflect(std::size_t element, const Ports& in) noexcept;
-  bool deflects(std::size_t element) const noexcept {
-    return rest_slopes(element) && deflects_[offsets_[element]];
+  bool deflects(std::size_t element, int state) const noexcept {
+    return rest_slopes(element) && deflects_[offsets_[element] + state];
   }
   /// dz/ds of (2) of the states of an element; null: not at rest.
   const double* rest_slopes(std::size_t element) const noexcept {

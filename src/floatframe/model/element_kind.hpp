@@ -71,11 +71,12 @@ struct ElementExample {
  private:
   void link_signals();
 };
-/// What the only state of an element follows at rest: it is the change of `place` since the start,
-/// at most `largest` by size.
+/// What a state of an element follows at rest: it is the change of `place` since the start, at most
+/// `largest` by size.
 struct Deflection {
   double place = 0.0;  ///< [m] or [rad]
   double largest = 0.0;
+  double period = 0.0;  ///< places that differ by it are the same: a turn; 0: none
 };
 /// Fills `out`, which is clear on entry. The step calls it by name, without a pointer.
 template <ElementType type>
@@ -132,9 +133,9 @@ struct ElementKind {
   void (*start)(const Ports& in, double* states) noexcept = nullptr;
   /// Changes the kept numbers when the start is found, at which the ports are.
   void (*settle)(const Ports& in, double* states) noexcept = nullptr;
-  /// Of an element whose state is a deflection, as of bristles. Null: at rest states without an
+  /// Of an element whose states are deflections, as of bristles. Null: at rest states without an
   /// equation keep their values.
-  Deflection (*deflection)(const Ports& in) noexcept = nullptr;
+  Deflection (*deflection)(const Ports& in, int state) noexcept = nullptr;
   /// What such states, kept at zero, leave out of an equilibrium: "friction". Null: nothing.
   const char* left_out_at_rest = nullptr;
   /// Changes the kept numbers at the end of a step, at which the ports are. Step time.

@@ -12,8 +12,8 @@
 // vehicle stands and rocks, and |V| has no floor: nothing creeps.
 // A deflection is held where the law gives its largest force, L = (L_x, L_y), while it would grow:
 // with s = |(u/L_x, v/L_y)| and the growth g = ds/dt of (1), where g > 0,
-//   (udot, vdot) -= a g (u, v)/s,  a = (s - 1 + b)/b above s = 1 - b                             (4)
-// so that s settles at 1 while it slides; without it a slide would wind the states up to sigma, and
+//   (udot, vdot) -= a g (u, v)/s,  a = (s - 1)/b above s = 1                                     (4)
+// so that s settles at 1 + b while it slides; without it a slide would wind the states up to sigma, and
 // throw the vehicle back when it ends. Of a law whose force falls beyond its limit L grows with
 // the speed of sliding up to `reach` sigma, from (3) with V_s in the place of V_c. In the air
 // states decay with the time `air_time`. Without `relaxation`: no states,
@@ -79,7 +79,7 @@ struct TyreLengths {
 /// S: double, Dual, DualNumber<1> and DualNumber<4>.
 
 namespace rolling {
-inline constexpr double blend = 0.02;        ///< b of (4)
+inline constexpr double blend = 0.01;        ///< b of (4)
 inline constexpr double steepest = 100.0;    ///< a of (4) does not exceed it
 inline constexpr double reach = 10.0;        ///< slip up to which a deflection follows in a slide
 inline constexpr double air_time = 0.01;     ///< [s]
@@ -137,10 +137,10 @@ void hold_deflections(const S& L_x, const S& L_y, const S& u, const S& v,
                       RollingForces<S>& out) noexcept {
   using std::sqrt;
   const S a = u / L_x, b = v / L_y, s = sqrt(S(a * a + b * b));
-  if (value_of(s) <= 1.0 - rolling::blend) return;
+  if (value_of(s) <= 1.0) return;
   const S growth = (a * out.u_rate / L_x + b * out.v_rate / L_y) / s;
   if (value_of(growth) <= 0.0) return;
-  S part = (s - (1.0 - rolling::blend)) / rolling::blend;
+  S part = (s - 1.0) / rolling::blend;
   if (value_of(part) > rolling::steepest) part = rolling::steepest;
   const S pull = part * growth / s;
   out.u_rate -= pull * u;
@@ -241,8 +241,9 @@ RollingLoad<S> rolling_load(const PortsOf<S>& in, const RollingContact<S>& c) no
   return l;
 }
 
-/// The values of a rolling tyre, in the order of `rolling_values`.
-enum RollingValue : std::size_t {
+/// The values of a rolling tyre behind its load, in the order of `rolling_values`.
+namespace rolling {
+enum Value : std::size_t {
   longitudinal_force,
   lateral_force,
   overturning_moment,
@@ -250,8 +251,8 @@ enum RollingValue : std::size_t {
   aligning_moment,
   longitudinal_slip,
   slip_angle,
-  camber_angle,
-  tyre_deflection,
+  camber,
+  deflection,
   loaded_radius,
   effective_radius,
   contact_x,
@@ -259,6 +260,7 @@ enum RollingValue : std::size_t {
   contact_z,
   friction_use
 };
+}  // namespace rolling
 inline std::vector<std::string> rolling_values(const ElementKeys&) {
   return {"load",           "longitudinal_force", "lateral_force",     "overturning_moment",
           "rolling_moment", "aligning_moment",    "longitudinal_slip", "slip_angle",
@@ -302,14 +304,14 @@ void put_rolling_forces(const RollingContact<S>& c, const RollingMotion<S>& m, c
   V T = c.arm.cross(F) + f.of.M_x * c.e_x + M_y * c.e_y + f.of.M_z * c.n;
   if (!spinning) T -= S(T.dot(c.axis)) * c.axis;
   out.wrench[0] = {F, T};
-  out.further[longitudinal_force] = F_x;
-  out.further[lateral_force] = f.of.F_y;
-  out.further[overturning_moment] = f.of.M_x;
-  out.further[rolling_moment] = M_y;
-  out.further[aligning_moment] = f.of.M_z;
-  out.further[longitudinal_slip] = f.kappa;
-  out.further[slip_angle] = atan2(f.tan_alpha, S(1.0));
-  out.further[friction_use] = f.of.friction_use;
+  out.further[rolling::longitudinal_force] = F_x;
+  out.further[rolling::lateral_force] = f.of.F_y;
+  out.further[rolling::overturning_moment] = f.of.M_x;
+  out.further[rolling::rolling_moment] = M_y;
+  out.further[rolling::aligning_moment] = f.of.M_z;
+  out.further[rolling::longitudinal_slip] = f.kappa;
+  out.further[rolling::slip_angle] = atan2(f.tan_alpha, S(1.0));
+  out.further[rolling::friction_use] = f.of.friction_use;
 }
 
 template <class Law, class S>
@@ -321,10 +323,10 @@ void rolling_tyre_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
   out.rate = c.height_rate;
   const RollingLoad<S> l = rolling_load<Law>(in, c);
   if (c.found) {
-    out.further[camber_angle] = c.camber;
-    out.further[tyre_deflection] = l.deflection;
-    out.further[loaded_radius] = c.loaded_radius;
-    for (int i = 0; i < 3; ++i) out.further[contact_x + i] = c.point[i];
+    out.further[rolling::camber] = c.camber;
+    out.further[rolling::deflection] = l.deflection;
+    out.further[rolling::loaded_radius] = c.loaded_radius;
+    for (int i = 0; i < 3; ++i) out.further[rolling::contact_x + i] = c.point[i];
   }
   if (!l.touches) return rolling_in_air(in, out);
   out.force = l.load;
@@ -334,7 +336,7 @@ void rolling_tyre_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
     return rolling_in_air(in, out);
   }
   const S r_e = Law::effective_radius(keys, data, l.load, l.deflection, c.spin);
-  out.further[effective_radius] = r_e;
+  out.further[rolling::effective_radius] = r_e;
   RollingMotion<S> m{l.load, l.deflection, c.camber,  c.v_cx, S(c.v_cx - c.spin * r_e),
                      c.v_cy, c.spin,       c.friction};
   if (!keys.spinning) {

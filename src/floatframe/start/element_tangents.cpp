@@ -179,9 +179,11 @@ MatX ElementTangents::at_rest() const {
   Eigen::Index at = 0;
   for (std::size_t k = 0; k < f_.model().elements.size(); ++k) {
     const int states = f_.model().elements[k].states;
-    for (int i = 0; i < states; ++i) hold(at + i);
-    // Their rates are dz/ds times that of the place (Deflection).
-    if (states > 0 && f_.element_states().deflects(k)) follow.row(at) = C.row(nv + at).head(nv);
+    for (int i = 0; i < states; ++i) {
+      hold(at + i);
+      // Their rates are dz/ds times that of the place (Deflection).
+      if (f_.element_states().deflects(k, i)) follow.row(at + i) = C.row(nv + at + i).head(nv);
+    }
     at += states;
   }
   return K.topLeftCorner(nv, nv) - K.topRightCorner(nv, ns) * lu_solve(slopes, follow);

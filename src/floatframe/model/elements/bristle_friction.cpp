@@ -195,7 +195,7 @@ void bristle_friction_start(const Ports& in, double* states) noexcept {
                             coordinate_measure(in, in.data<MeasuredCoordinate>()).rate);
 }
 
-Deflection deflection_of_bristles(const Ports& in) noexcept {
+Deflection deflection_of_bristles(const Ports& in, int) noexcept {
   return {coordinate_measure(in, in.data<MeasuredCoordinate>()).s,
           largest_deflection(bristles_of(in.keys<BristleFriction>()), 0.0)};
 }
