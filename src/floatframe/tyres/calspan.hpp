@@ -58,6 +58,13 @@ S calspan_camber_stiffness(const Calspan& c, const S& load) noexcept {
   return c.A3 * w - c.A3 / c.A4 * w * w;
 }
 
+/// |mu| on a road of the friction factor 1, at a load [N].
+template <class S>
+S calspan_friction(const Calspan& c, const S& load) noexcept {
+  using std::abs;
+  return c.SN * abs(S(c.B3 + load * (c.B1 + c.B4 * load)));
+}
+
 /// Side force and aligning moment at a load [N], friction factor of the road, slip angle and camber
 /// [rad].
 template <class S>
@@ -66,8 +73,7 @@ CalspanForces<S> calspan_forces(const Calspan& c, const S& load, const S& fricti
   using std::abs;
   CalspanForces<S> out{0.0, 0.0, 0.0};
   if (!(load > 0.0) || !(friction > 0.0)) return out;
-  const S mu = friction * (c.B1 * load + c.B3 + c.B4 * load * load) * c.SN;
-  const S limit = abs(mu) * load;
+  const S limit = friction * load * calspan_friction(c, load);
   const S linear =
       calspan_cornering_stiffness(c, load) * alpha + calspan_camber_stiffness(c, load) * gamma;
   S use = 1.0;
