@@ -126,7 +126,7 @@ std::string default_text(const ElementKey& key) {
     case KeyKind::word:
       return std::string("`") + key.words[key.fallback] + "`";
     case KeyKind::flag:
-      return "`false`";
+      return key.fallback == 0.0 ? "`false`" : "`true`";
     case KeyKind::direction:
       for (std::size_t i = 0; i < 3; ++i)
         if (key.vector[i] == 1.0) return std::string("`") + "xyz"[i] + "`";

@@ -89,7 +89,7 @@ void note_rolling_tyre(const Element& element, const RollingTyre& keys, double r
         "radius is {:.4g} m, so that at the start {}",
         element.name, height, radius,
         height > radius ? "the wheel hangs in the air" : "the road presses deep into it"));
-  const Vec3 axis = start.axes(marker) * keys.axis;
+  const Vec3 axis = start.marker(marker).R * keys.axis;
   if (axis.head<2>().norm() < upright)
     notes.push_back(fmt::format(
         "tyre '{}': its wheel lies: the axis is {:.3g} deg from the "

@@ -17,7 +17,8 @@
 // throw the vehicle back when it ends. Of a law whose force falls beyond its limit L grows with
 // the speed of sliding up to `reach` sigma, from (3) with V_s in the place of V_c. In the air
 // states decay with the time `air_time`. Without `relaxation`: no states,
-//   kappa = -V_sx/V*, tan(alpha) = V_sy/V*, V* = sqrt(V_cx^2 + (v_d/10)^2): such a tyre creeps.
+//   kappa = -V_sx/V*, tan(alpha) = V_sy/V*, V* = |V_cx|, below v_d (V_cx^2 + v_d^2)/(2 v_d):
+// it creeps.
 // Wrench at the wheel centre, with the arm to the contact point:
 //   F = F_x e_x + F_y e_y + F_z n,  T = arm x F + M_x e_x + s M_y e_y + M_z n,
 //   F_z = load(d) + c ddot,  s = w/sqrt(w^2 + v_r^2), w = Omega r_e: the sense of rolling.
@@ -180,8 +181,9 @@ RollingForces<S> rolling_forces(const typename Law::Keys& keys, const typename L
     }
     out.energy = 0.5 * (l.stiffness_x * u * u + l.stiffness_y * v * v);
   } else {
-    const double least = 0.1 * keys.damping_speed;
-    const S along = sqrt(S(m.v_cx * m.v_cx + least * least));
+    const double least = keys.damping_speed;
+    const S along =
+        value_of(speed) < least ? S((speed * speed + least * least) / (2.0 * least)) : speed;
     out.kappa = -m.v_sx / along;
     out.tan_alpha = m.v_sy / along;
   }
