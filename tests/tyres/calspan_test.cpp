@@ -5,12 +5,10 @@
 
 #include <numbers>
 
-#include "support/reference_table.hpp"
+#include "support/named_rows.hpp"
 
 namespace floatframe {
 namespace {
-
-using test::ReferenceRow;
 
 constexpr double calspan_degree = std::numbers::pi / 180.0;
 const Calspan iltis_calspan = {.A0 = 2625.0,
@@ -28,12 +26,12 @@ const Calspan iltis_calspan = {.A0 = 2625.0,
 
 TEST(Calspan, MeetsTheReferenceTable) {
   int rows = 0;
-  for (const ReferenceRow& row : test::reference_rows("tyres/calspan/calspan.csv")) {
-    const auto f = calspan_forces(iltis_calspan, row.number("Fz_N"), 1.0,
-                                  row.number("alpha_deg") * calspan_degree,
-                                  row.number("gamma_deg") * calspan_degree);
+  for (const test::NamedRow& row : test::named_rows("tyres/calspan/calspan.csv")) {
+    const auto f =
+        calspan_forces(iltis_calspan, std::stod(row.name), 1.0, row("alpha_deg") * calspan_degree,
+                       row("gamma_deg") * calspan_degree);
     // The table has nine digits.
-    const double Fy = row.number("Fy_N"), Mz = row.number("Mz_Nm");
+    const double Fy = row("Fy_N"), Mz = row("Mz_Nm");
     EXPECT_NEAR(f.Fy, Fy, 5e-9 * std::max(1.0, std::abs(Fy)));
     EXPECT_NEAR(f.Mz, Mz, 5e-9 * std::max(1.0, std::abs(Mz)));
     EXPECT_LE(f.friction_use, 1.0);

@@ -6,12 +6,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "support/reference_table.hpp"
+#include "support/named_rows.hpp"
 
 namespace floatframe {
 namespace {
-
-using test::ReferenceRow;
 
 TwoLoads tmeasy_loads(const nlohmann::json& values) {
   return {values.at(0).get<double>(), values.at(1).get<double>()};
@@ -45,21 +43,21 @@ void expect_tmeasy_digits(double value, double expected, const std::string& what
 
 TEST(Tmeasy, MeetsTheReferenceTable) {
   int rows = 0;
-  for (const ReferenceRow& row : test::reference_rows("tyres/tmeasy/tmeasy.csv")) {
-    Tmeasy t = tmeasy_of(row.word("set"));
-    const double load = row.number("Fz_N"), mu = row.number("mu_ratio");
-    const double sx = row.number("sx"), sy = row.number("sy");
-    const std::string what = row.word("set") + " " + row.word("group") + " " + row.word("Fz_N");
+  for (const test::NamedRow& row : test::named_rows("tyres/tmeasy/tmeasy.csv")) {
+    Tmeasy t = tmeasy_of(row.name);
+    const double load = row("Fz_N"), mu = row("mu_ratio");
+    const double sx = row("sx"), sy = row("sy");
+    const std::string what = row.name + " at " + std::to_string(row("Fz_N")) + " N";
     const auto f = tmeasy_forces(t, load, mu, sx, sy);
-    expect_tmeasy_digits(f.Fx, row.number("Fx"), what);
-    expect_tmeasy_digits(f.Fy, row.number("Fy"), what);
-    expect_tmeasy_digits(f.trail, row.number("trail_over_L"), what);
-    expect_tmeasy_digits(f.Mz, row.number("Mz"), what);
+    expect_tmeasy_digits(f.Fx, row("Fx"), what);
+    expect_tmeasy_digits(f.Fy, row("Fy"), what);
+    expect_tmeasy_digits(f.trail, row("trail_over_L"), what);
+    expect_tmeasy_digits(f.Mz, row("Mz"), what);
     EXPECT_LE(f.friction_use, 1.0 + 1e-12);
     t.normalised = false;
     const auto plain = tmeasy_forces(t, load, mu, sx, sy);
-    expect_tmeasy_digits(plain.Fx, row.number("Fx_nonorm"), what);
-    expect_tmeasy_digits(plain.Fy, row.number("Fy_nonorm"), what);
+    expect_tmeasy_digits(plain.Fx, row("Fx_nonorm"), what);
+    expect_tmeasy_digits(plain.Fy, row("Fy_nonorm"), what);
     ++rows;
   }
   EXPECT_EQ(rows, 184);

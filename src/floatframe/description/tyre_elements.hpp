@@ -58,7 +58,7 @@ struct TmeasyTyre : RollingTyre {
   MatX longitudinal, lateral;  ///< 2 x 5: slope [N], maximum [N], its slip, sliding [N], its slip
   MatX trail;                  ///< 2 x 3: over the contact length, slips of its zero and its end
   double longitudinal_stiffness = 0.0, lateral_stiffness = 0.0;  ///< of the carcass [N/m]
-  double rolling_radius = 2.0 / 3.0;  ///< share of the unloaded radius in the effective one
+  double rolling_radius = 0.67;  ///< share of the unloaded radius in the effective one
   double friction = 1.0;              ///< of the road over that of the tables
   bool normalised = true;             ///< slips; see tyres/tmeasy.hpp
   double rolling_resistance = 0.0;    ///< torque over load and radius

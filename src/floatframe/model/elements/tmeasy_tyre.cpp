@@ -145,7 +145,7 @@ constexpr ElementKey tmeasy_own[] = {
                             described_by<&TmeasyTyre::lateral_stiffness>),
     rolling_number("rolling_radius",
                    "share of the unloaded radius in the effective one; the rest is the loaded one",
-                   tmeasy_share, described_by<&TmeasyTyre::rolling_radius>, 2.0 / 3.0),
+                   tmeasy_share, described_by<&TmeasyTyre::rolling_radius>, 0.67),
     rolling_number("friction", "of the road over that of the tables", positive_number(""),
                    described_by<&TmeasyTyre::friction>, 1.0),
     {.name = "normalised",
