@@ -108,6 +108,20 @@ struct AppliedLoad {
 struct AppliedForce : AppliedLoad {};
 struct AppliedTorque : AppliedLoad {};
 
+/// Drag, side force and lift of the air on a body, at one point. With the air speed u = wind - v of
+/// the point, along e1 = forwards, e2, e3 = up, which turn with the body: F = density/2 area |u|
+/// (drag u1 e1 + side u2 e2 + lift |u| e3).
+struct AerodynamicLoad {
+  AttachmentDescription at;
+  Vec3 axis = Vec3::UnitZ(), axis_2 = Vec3::UnitX();  ///< up, forwards
+  double area = 0.0;                                  ///< [m^2]
+  double drag = 0.0, side = 0.0;                      ///< coefficients [-]
+  double lift = 0.0;                                  ///< the same; negative: downforce
+  double density = 1.2;                               ///< [kg/m^3]
+  std::optional<SignalDescription> wind;              ///< speed of the air [m/s]; absent: 0
+  Vec3 wind_direction = Vec3::UnitX();                ///< where it blows to, in the world
+};
+
 /// A shaft (`to`) in a housing (`from`), which carries the axes of a bushing; the shaft may turn
 /// about e3 without end. Matrices are 6 x 6 - three displacements, two tilts, the spin - or 2 x 2
 /// in the plane of e1, e2; 0 x 0: none.
@@ -360,7 +374,10 @@ struct Delay {
   entry(curve_on_curve, CurveOnCurve)   \
   entry(slide_along, SlideAlong) \
   entry(linear_tyre, LinearTyre) \
-  entry(magic_formula_tyre, MagicFormulaTyre)
+  entry(magic_formula_tyre, MagicFormulaTyre) \
+  entry(tmeasy_tyre, TmeasyTyre) \
+  entry(calspan_tyre, CalspanTyre) \
+  entry(aerodynamic_load, AerodynamicLoad)
 // clang-format on
 
 #define FLOATFRAME_ENTRY(name, Keys) name,

@@ -63,4 +63,33 @@ struct MagicFormulaTyre : RollingTyre {
   double stiffness_factor = 1.0;   ///< factor of LKX and LKY
 };
 
+/// TMeasy (tyres/tmeasy.hpp): values at the nominal load and at twice, in rows.
+struct TmeasyTyre : RollingTyre {
+  double radius = 0.0;             ///< unloaded [m]
+  double nominal_load = 0.0;       ///< [N]
+  std::optional<double> max_load;  ///< above which tables are held [N]; absent: 3.5 x nominal
+  MatX stiffness;                  ///< 1 x 2, vertical, at both loads [N/m]
+  MatX longitudinal, lateral;  ///< 2 x 5: slope [N], maximum [N], its slip, sliding [N], its slip
+  MatX trail;                  ///< 2 x 3: over the contact length, slips of its zero and its end
+  double longitudinal_stiffness = 0.0, lateral_stiffness = 0.0;  ///< of the carcass [N/m]
+  double rolling_radius = 0.67;  ///< share of the unloaded radius in the effective one
+  double friction = 1.0;              ///< of the road over that of the tables
+  bool normalised = true;             ///< slips; see tyres/tmeasy.hpp
+  double rolling_resistance = 0.0;    ///< torque over load and radius
+};
+
+/// Side force and aligning moment of slip angle and camber, no longitudinal force
+/// (tyres/calspan.hpp). Its load is that of the height of the wheel centre.
+struct CalspanTyre : RollingTyre {
+  double radius = 0.0;                 ///< unloaded [m]
+  double stiffness = 0.0;              ///< vertical [N/m]
+  MatX cornering;                      ///< 1 x 3: A0 [N/rad], A1 [1/rad], A2 [N]
+  MatX camber;                         ///< 1 x 2: A3 [1/rad], A4 [N]
+  MatX friction;                       ///< 1 x 3: B1 [1/N], B3, B4 [1/N^2]
+  MatX aligning;                       ///< 1 x 2: AF1, AF2 [m/N]; 0 x 0: none
+  double load_limit = 1.0;             ///< Omega_T: stiffnesses are held above this x A2
+  double skid_number = 1.0;            ///< SN
+  std::optional<double> relaxation_y;  ///< length [m]; absent: slips follow at once
+};
+
 }  // namespace floatframe
