@@ -173,7 +173,7 @@ class ModelHash {
   }
   void add(const Model& model) {
     const auto& [name, gravity, bodies, joints, elements, links, roads, inputs, markers, outputs,
-                 measures, until, gauges, amplitudes, amplitude_rates, mean_mass, simulation, hints,
+                 measures, until, gauges, amplitudes, amplitude_rates, mean_mass, simulation, vehicle, hints,
                  linear] = model;
     all(gravity, bodies, joints, elements, links, roads, inputs, markers, outputs, mean_mass);
     for (const Output& o : measures) add(o);
