@@ -79,7 +79,7 @@ TEST(StepSteer, IsThatOfTheLinearEquations) {
   // The record begins at zero with the rows of the model.
   EXPECT_EQ(run.table.at(0, 0), 0.0);
   EXPECT_NEAR(run.table.at(run.table.rows() - 1, 0), 5.0, 1e-9);
-  EXPECT_NEAR(run.table.at(run.table.rows() - 1, run.table.column("steer")),
+  EXPECT_NEAR(run.table.at(run.table.rows() - 1, run.table.column("inputs.steer")),
               16.0 * options.angle, 1e-6);
   const ManoeuvreReport report = manoeuvre_report("car", r);
   EXPECT_TRUE(contains(report.text, "ISO 7401"));

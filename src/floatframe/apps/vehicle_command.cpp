@@ -1,6 +1,7 @@
 // floatframe vehicle: manoeuvres of a vehicle and their figures.
 #include <memory>
-#include <optional>
+#include <numbers>
+#include <utility>
 
 #include "floatframe/apps/commands.hpp"
 #include "floatframe/core/diagnostics.hpp"
@@ -32,20 +33,30 @@ double speed_of(const std::string& text) {
   return factor * positive_number("--speed", number);
 }
 
+SteadyCircleOptions circle_options(const VehicleArguments& a, double speed) {
+  SteadyCircleOptions o{.speed = speed, .right = a.right};
+  if (!a.radius.empty()) o.radius = positive_number("--radius", a.radius);
+  return o;
+}
+
+StepSteerOptions step_options(const VehicleArguments& a, double speed) {
+  StepSteerOptions o{.speed = speed};
+  if (!a.angle.empty()) o.angle = positive_number("--angle", a.angle) * std::numbers::pi / 180.0;
+  if (a.right) o.angle = -o.angle;
+  return o;
+}
+
+/// Of the trimmed start.
+double start_speed(const VehicleArguments& a, double speed) {
+  return a.manoeuvre == "steady-circle" ? first_speed(circle_options(a, speed)) : speed;
+}
+
 ManoeuvreReport drive(VehicleRun& run, const VehicleArguments& a, double speed) {
   const std::string& model = run.model().name;
-  if (a.manoeuvre == "step-steer") {
-    StepSteerOptions o{.speed = speed};
-    if (!a.angle.empty())
-      o.angle = positive_number("--angle", a.angle) * 0.017453292519943295;  // pi/180
-    if (a.right) o.angle = -o.angle;
-    return manoeuvre_report(model, step_steer(run, o));
-  }
-  if (a.manoeuvre == "steady-circle") {
-    SteadyCircleOptions o{.speed = speed, .right = a.right};
-    if (!a.radius.empty()) o.radius = positive_number("--radius", a.radius);
-    return manoeuvre_report(model, steady_circle(run, o));
-  }
+  if (a.manoeuvre == "step-steer")
+    return manoeuvre_report(model, step_steer(run, step_options(a, speed)));
+  if (a.manoeuvre == "steady-circle")
+    return manoeuvre_report(model, steady_circle(run, circle_options(a, speed)));
   return manoeuvre_report(model, lane_change(run, speed));
 }
 
@@ -56,7 +67,8 @@ void save_record(VehicleRun& run, const VehicleArguments& a, const ModelFingerpr
   kept.options = run.options();
   kept.result.table = std::move(run.table);
   RunSummary& summary = kept.result.summary;
-  static_cast<StepCounters&>(summary) = run.counters();
+  StepCounters& counters = summary;
+  counters = run.counters();
   summary.model = run.model().name;
   summary.coordinates = word(run.options().coordinates);
   summary.inertia = word(run.options().inertia);
@@ -78,7 +90,7 @@ int drive_vehicle(const VehicleArguments& a) {
   check_inertia_method(description, description.simulation.inertia);
   const VehicleNeeds needs{
       .steering = true, .drive = true, .width = a.manoeuvre == "double-lane-change"};
-  VehicleRun run(vehicle_setup(std::move(description), a.manoeuvre, needs, speed));
+  VehicleRun run(vehicle_setup(std::move(description), a.manoeuvre, needs, start_speed(a, speed)));
   const ManoeuvreReport report = drive(run, a, speed);
   save_record(run, a, used);
   print(a.json ? report.json : report.text);

@@ -1,7 +1,7 @@
 #pragma once
-// Figures of a steady circle, ISO 4138 at constant radius: how steering, sideslip and roll grow with
-// the lateral acceleration. Axes of ISO 8855: x forward, y left; a left circle has positive yaw
-// rate, lateral acceleration and steering.
+// Figures of a steady circle, ISO 4138 at constant radius: how steering, sideslip and roll grow
+// with the lateral acceleration. Axes of ISO 8855: x forward, y left; a left circle has positive
+// yaw rate, lateral acceleration and steering.
 //
 //   delta   road-wheel angle, that of the steering input divided by its ratio [rad]
 //   delta_A = L r/v   Ackermann angle, of the radius that is driven [rad]
@@ -10,7 +10,8 @@
 //   positive where they give a force to the left
 //
 // with the wheelbase L = l_f + l_r, the distances l_f, l_r of the axles from the reference point,
-// speed v, yaw rate r and sideslip beta = atan(v_y/v_x) there. Angles are small, as in the standard.
+// speed v, yaw rate r and sideslip beta = atan(v_y/v_x) there. Angles are small, as in the
+// standard.
 #include <optional>
 #include <vector>
 

@@ -31,8 +31,8 @@ struct DrivenPath {
   bool closed = false;
 };
 
-/// A circle that begins at a point with a heading [rad], driven again and again. Radius [m], positive
-/// to the left; `spacing` of its points [m].
+/// A circle that begins at a point with a heading [rad], driven again and again. Radius [m],
+/// positive to the left; `spacing` of its points [m].
 DrivenPath circle_path(const PathPoint& begin, double heading, double radius,
                        double spacing = 0.05);
 /// From a point along a heading [rad].

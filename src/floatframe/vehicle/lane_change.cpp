@@ -109,7 +109,8 @@ LaneChangeResult lane_change(VehicleRun& run, double speed) {
   for (const PathPoint& p : lane_change_path(vehicle.width)) path.points.push_back(track.world(p));
   follower.follow(std::move(path));
 
-  LaneChangeResult out{.gates = lane_gates(vehicle.width)};
+  LaneChangeResult out;
+  out.gates = lane_gates(vehicle.width);
   out.clearance.fill(std::numeric_limits<double>::infinity());
   const VehicleOutline outline{
       .width = vehicle.width, .front = vehicle.front, .rear = vehicle.rear};

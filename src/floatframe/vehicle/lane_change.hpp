@@ -2,9 +2,9 @@
 // The obstacle avoidance manoeuvre of ISO 3888-2: a double lane change through the gates of
 // lane_gates.hpp, with the drive released 2 m after the entry.
 //
-// The path is the one with the least integral of y''^2 through the points below (a cubic spline with
-// y' = 0 at the entry and y'' = 0 at the end); with the width b of the vehicle and m = 0.1 m, at most
-// half of what is free:
+// The path is the one with the least integral of y''^2 through the points below (a cubic spline
+// with y' = 0 at the entry and y'' = 0 at the end); with the width b of the vehicle and m = 0.1 m,
+// at most half of what is free on a side:
 //   x = 0       y = 0
 //   x = 12      left edge of section 1 - b/2 - m
 //   x = 25.5    right edge of section 3 + b/2 + m

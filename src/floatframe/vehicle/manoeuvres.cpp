@@ -43,7 +43,8 @@ StepSteerResult step_steer(VehicleRun& run, const StepSteerOptions& o) {
   PathFollower follower = straight_on(run);
   SpeedController controller = speed_controller(run);
   const TrimmedInputs trim = drive_trimmed(run, follower, controller, o.speed);
-  StepSteerResult out{.speed = run.now().view.speed};
+  StepSteerResult out;
+  out.speed = run.now().view.speed;
   SteppedHistory h;
   h.add(run.now());
   while (run.now().time < o.duration - 0.5 * run.step_size()) {
@@ -142,12 +143,16 @@ std::optional<CirclePoint> steady_point(VehicleRun& run, PathFollower& follower,
 
 }  // namespace
 
+double first_speed(const SteadyCircleOptions& o) {
+  return std::min(o.speed, std::sqrt(o.spacing * o.radius));
+}
+
 SteadyCircleResult steady_circle(VehicleRun& run, const SteadyCircleOptions& o) {
   PathFollower follower = straight_on(run);
   SpeedController controller = speed_controller(run);
   const double last = o.speed * o.speed / o.radius;
   const auto speed_at = [&](double ay) { return std::sqrt(std::min(ay, last) * o.radius); };
-  double speed = speed_at(o.spacing);
+  double speed = first_speed(o);
   drive_trimmed(run, follower, controller, speed);
   const DriverView& v = run.now().view;
   follower.follow(circle_path({v.x, v.y}, v.yaw, o.right ? -o.radius : o.radius));

@@ -50,6 +50,8 @@ struct SteadyCircleResult {
   std::string ended;  ///< why the speed was not reached; empty: it was
 };
 
+/// The speed of its first point, at which it starts [m/s].
+double first_speed(const SteadyCircleOptions& options);
 /// Constant radius, one steady state after the other: ISO 4138.
 SteadyCircleResult steady_circle(VehicleRun& run, const SteadyCircleOptions& options);
 

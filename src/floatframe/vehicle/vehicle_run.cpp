@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <tuple>
 
 #include "floatframe/loops/run_error.hpp"
 #include "floatframe/model/model.hpp"
@@ -38,7 +39,7 @@ VehicleRun::VehicleRun(const VehicleSetup& setup)
   }
   table.columns.push_back({"time", "s"});
   for (const Output& o : model().outputs) table.columns.push_back({o.name, o.unit});
-  for (const Input& i : model().inputs) table.columns.push_back({i.name, i.unit});
+  for (const Input& i : model().inputs) table.columns.push_back({"inputs." + i.name, i.unit});
   read();
 }
 

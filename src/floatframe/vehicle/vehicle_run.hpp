@@ -2,9 +2,8 @@
 // A vehicle that is driven: inputs are set before each step and constant during it, outputs are
 // read after it.
 #include <array>
-#include <functional>
-#include <memory>
-#include <string>
+#include <cstddef>
+#include <iterator>
 
 #include "floatframe/run/result_table.hpp"
 #include "floatframe/stepping/stepping.hpp"
@@ -47,7 +46,7 @@ class VehicleRun {
   void step(double steering, double force);
   /// Time, position and heading count from here, and rows are recorded from here on.
   void begin_record();
-  /// Time, the outputs of the model, the values of the inputs.
+  /// Time, the outputs of the model, the values of the inputs as "inputs.NAME".
   ResultTable table;
 
  private:

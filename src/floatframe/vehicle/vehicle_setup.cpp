@@ -70,7 +70,7 @@ void add_load(ModelDescription& d, const std::string& wheel, const std::string& 
 /// A wheel rolls at v/R; about an axis that points to the right the other way round.
 void spin_up(ModelDescription& d, const VehicleWheel& wheel, double rate) {
   const auto joint = std::ranges::find(d.joints, wheel.spin, &JointDescription::name);
-  if (joint == d.joints.end() || joint->velocity.size() > 1) return;
+  if (joint == d.joints.end() || joint->type != JointType::revolute) return;
   const bool turned = joint->child.body != wheel.wheel;
   const double along = joint->axis.y() / joint->axis.norm() * (turned ? -1.0 : 1.0);
   joint->velocity = {rate * (along < 0.0 ? -1.0 : 1.0)};
