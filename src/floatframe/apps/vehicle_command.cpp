@@ -9,13 +9,14 @@
 #include "floatframe/model_file/model_fingerprint.hpp"
 #include "floatframe/page/kept_run.hpp"
 #include "floatframe/vehicle/manoeuvre_report.hpp"
+#include "floatframe/vehicle/rig_report.hpp"
 
 namespace floatframe {
 namespace {
 
 struct VehicleArguments {
   ModelArguments model;
-  std::string manoeuvre, speed, radius, angle, step, coordinates, inertia, out;
+  std::string manoeuvre, rig, travel, speed, radius, angle, step, coordinates, inertia, out;
   bool right = false, json = false;
 };
 
@@ -81,6 +82,15 @@ void save_record(VehicleRun& run, const VehicleArguments& a, const ModelFingerpr
   save_run(run.model(), kept, a.out);
 }
 
+int put_on_rig(const VehicleArguments& a, const ModelDescription& description) {
+  RigOptions options;
+  if (!a.travel.empty()) options.travel = positive_number("--travel", a.travel);
+  const ManoeuvreReport report =
+      rig_report(description.name, suspension_figures(description, options));
+  print(a.json ? report.json : report.text);
+  return exit_code::done;
+}
+
 int drive_vehicle(const VehicleArguments& a) {
   const double speed = speed_of(a.speed);
   ModelFingerprint used;
@@ -88,6 +98,7 @@ int drive_vehicle(const VehicleArguments& a) {
   set_time_options(description.simulation, a.step, "");
   set_formulation(description.simulation, a.coordinates, a.inertia);
   check_inertia_method(description, description.simulation.inertia);
+  if (!a.rig.empty()) return put_on_rig(a, description);
   const VehicleNeeds needs{
       .steering = true, .drive = true, .width = a.manoeuvre == "double-lane-change"};
   VehicleRun run(vehicle_setup(std::move(description), a.manoeuvre, needs, start_speed(a, speed)));
@@ -102,32 +113,37 @@ int drive_vehicle(const VehicleArguments& a) {
 Command vehicle_command() {
   const auto a = std::make_shared<VehicleArguments>();
   a->manoeuvre = "step-steer";
-  return {.name = "vehicle",
-          .help = "Drive a manoeuvre with the model of a vehicle, and print its figures",
-          .options = joined(
-              model_options(a->model),
-              {word_option("--manoeuvre", a->manoeuvre,
-                           {"steady-circle", "step-steer", "double-lane-change"},
-                           "Figures of ISO 4138 (constant radius), ISO 7401 or ISO 3888-2"),
-               text_option(
-                   "--speed", a->speed, "SPEED",
-                   "With its unit, km/h or m/s (default 80km/h): of the last point of a circle, "
-                   "else at the start"),
-               text_option("--radius", a->radius, "METRES", "Of the circle (default 100)"),
-               text_option("--angle", a->angle, "DEGREES",
-                           "Of the step at the road wheels (default 1)"),
-               flag("--right", a->right, "Circle or step to the right instead of to the left"),
-               text_option("--step", a->step, "SECONDS", "Time step, otherwise that of the model"),
-               coordinates_option(a->coordinates), inertia_option(a->inertia),
-               flag("--json", a->json, "JSON on standard output"),
-               text_option("-o,--out", a->out, "FOLDER",
-                           "Also write results.csv, report.html and summary.json there")}),
-          .footer =
-              "The model needs the section `vehicle` (docs/vehicle.md) and a flat road. It starts "
-              "trimmed:\n"
-              "driven straight on until nothing changes, which is time zero.\n"
-              "Exit codes: 0 done, 1 the start or the manoeuvre fails, 2 bad input.",
-          .run = [a] { return drive_vehicle(*a); }};
+  return {
+      .name = "vehicle",
+      .help = "Drive a manoeuvre with the model of a vehicle, and print its figures",
+      .options = joined(
+          model_options(a->model),
+          {word_option("--manoeuvre", a->manoeuvre,
+                       {"steady-circle", "step-steer", "double-lane-change"},
+                       "Figures of ISO 4138 (constant radius), ISO 7401 or ISO 3888-2"),
+           word_option("--rig", a->rig, {"k-and-c"},
+                       "Instead: toe, camber, track and wheel rate over travel, roll and steer"),
+           text_option("--travel", a->travel, "METRES",
+                       "Largest travel on the rig, up and down (default 0.06)"),
+           text_option(
+               "--speed", a->speed, "SPEED",
+               "With its unit, km/h or m/s (default 80km/h): of the last point of a circle, "
+               "else at the start"),
+           text_option("--radius", a->radius, "METRES", "Of the circle (default 100)"),
+           text_option("--angle", a->angle, "DEGREES",
+                       "Of the step at the road wheels (default 1)"),
+           flag("--right", a->right, "Circle or step to the right instead of to the left"),
+           text_option("--step", a->step, "SECONDS", "Time step, otherwise that of the model"),
+           coordinates_option(a->coordinates), inertia_option(a->inertia),
+           flag("--json", a->json, "JSON on standard output"),
+           text_option("-o,--out", a->out, "FOLDER",
+                       "Also write results.csv, report.html and summary.json there")}),
+      .footer =
+          "The model needs the section `vehicle` (docs/vehicle.md) and a flat road. It starts "
+          "trimmed:\n"
+          "driven straight on until nothing changes, which is time zero.\n"
+          "Exit codes: 0 done, 1 the start or the manoeuvre fails, 2 bad input.",
+      .run = [a] { return drive_vehicle(*a); }};
 }
 
 }  // namespace floatframe

@@ -1,7 +1,7 @@
 #pragma once
 // Manoeuvres on a flat road: a vehicle that starts trimmed (vehicle_run.hpp), is driven, and the
 // figures of the standards. docs/vehicle.md has every formula.
-#include <optional>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -12,12 +12,13 @@
 namespace floatframe {
 
 struct StepSteerOptions {
-  double speed = 80.0 / 3.6;    ///< [m/s]
-  double angle = 0.0174532925;  ///< road-wheel angle of the step [rad], positive: to the left
-  double begin = 1.0;           ///< of the steering, after the start [s]
-  double ramp = 0.15;           ///< duration of the steering, a quintic [s]
-  double duration = 5.0;        ///< after the start [s]
-  double window = 0.5;          ///< at the end, of the steady values [s]
+  double speed = 80.0 / 3.6;  ///< [m/s]
+  double angle =
+      std::numbers::pi / 180.0;  ///< road-wheel angle of the step [rad], positive: to the left
+  double begin = 1.0;            ///< of the steering, after the start [s]
+  double ramp = 0.15;            ///< duration of the steering, a quintic [s]
+  double duration = 5.0;         ///< after the start [s]
+  double window = 0.5;           ///< at the end, of the steady values [s]
 };
 
 struct StepSteerResult {
