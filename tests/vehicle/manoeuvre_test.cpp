@@ -2,9 +2,12 @@
 // those of a rigid body, against the linear equations.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
+#include "floatframe/model/model_hash.hpp"
 #include "floatframe/model_file/load_model.hpp"
 #include "floatframe/vehicle/lane_change.hpp"
 #include "floatframe/vehicle/manoeuvre_report.hpp"
@@ -144,6 +147,38 @@ TEST(LaneChange, IsDrivenSlowly) {
   EXPECT_TRUE(contains(manoeuvre_report("car", r).text, "ISO 3888-2"));
 }
 
+TEST(VehicleSection, DoesNotChangeTheMotion) {
+  ModelDescription d = single_track_model();
+  ASSERT_TRUE(d.vehicle);
+  EXPECT_EQ(d.vehicle->axles[1].right.tyre, "rr");
+  EXPECT_EQ(d.vehicle->steering->ratio, 16.0);
+  EXPECT_EQ(d.vehicle->drive->ratio, 1.0);
+  EXPECT_EQ(*d.vehicle->driver, Vec3(0.0, 0.0, 0.3));
+  const Model with = build_model(d);
+  ASSERT_TRUE(with.vehicle);
+  EXPECT_EQ(with.vehicle->width, 1.7);
+  d.vehicle.reset();
+  EXPECT_EQ(model_hash(with), model_hash(build_model(d)));
+}
+
+TEST(VehicleSection, OfProgramsIsChecked) {
+  const auto codes = [](const std::function<void(VehicleDescription&)>& change) {
+    ModelDescription d = single_track_model();
+    d.vehicle->origin = {};
+    for (VehicleAxle& a : d.vehicle->axles) a.origin = {};
+    d.vehicle->steering->origin = {};
+    change(*d.vehicle);
+    return error_of([&] { build_model(d); });
+  };
+  EXPECT_EQ(codes([](VehicleDescription& v) { v.chassis = "cart"; }), "vehicle.chassis: not_found");
+  EXPECT_EQ(codes([](VehicleDescription& v) { v.axles[1].left.tyre = "fl"; }),
+            "vehicle.axles.rear.left.tyre: duplicate");
+  EXPECT_EQ(codes([](VehicleDescription& v) { v.axles.clear(); }), "vehicle.axles: missing");
+  EXPECT_EQ(codes([](VehicleDescription& v) { v.steering->ratio = 0.0; }),
+            "vehicle.steering.ratio: out_of_range");
+  EXPECT_EQ(codes([](VehicleDescription& v) { v.width = -1.0; }), "vehicle.width: out_of_range");
+}
+
 TEST(VehicleSetup, NamesWhatAManoeuvreLacks) {
   const auto error = [](const std::function<void(ModelDescription&)>& change) {
     ModelDescription d = single_track_model();
@@ -152,9 +187,9 @@ TEST(VehicleSetup, NamesWhatAManoeuvreLacks) {
   };
   EXPECT_TRUE(contains(error([](auto& d) { d.vehicle.reset(); }), "no section 'vehicle'"));
   EXPECT_TRUE(contains(error([](auto& d) { d.vehicle->steering.reset(); }),
-                       "found no 'steering', which step-steer needs"));
+                       "found no 'steering', expected it for step-steer"));
   EXPECT_TRUE(contains(error([](auto& d) { d.vehicle->drive.reset(); }),
-                       "found no 'drive', which step-steer needs"));
+                       "found no 'drive', expected it for step-steer"));
   EXPECT_TRUE(contains(error([](auto& d) { d.vehicle->axles.pop_back(); }), "found one axle"));
   EXPECT_TRUE(contains(error([](auto& d) { std::swap(d.vehicle->axles[0], d.vehicle->axles[1]); }),
                        "behind the last one"));

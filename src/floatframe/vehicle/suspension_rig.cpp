@@ -198,7 +198,7 @@ std::vector<RigPoint> suspension_sweep(const ModelDescription& description, RigS
   const VehicleDescription& v = *description.vehicle;
   if (sweep == RigSweep::steer && !v.steering)
     throw InputError(ErrorCode::missing, v.origin.mark,
-                     "vehicle: found no 'steering', which a steer sweep needs");
+                     "vehicle: found no 'steering', expected it for a steer sweep");
   std::vector<RigPoint> out;
   for (int k = 0; k < options.points; ++k) {
     const double part = options.points > 1 ? 2.0 * k / (options.points - 1) - 1.0 : 0.0;

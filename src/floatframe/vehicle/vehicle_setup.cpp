@@ -24,7 +24,7 @@ void require_roles(const ModelDescription& d, const std::string& manoeuvre,
   ErrorList errors;
   const auto lacks = [&](const std::string& what) {
     errors.add({v.origin.mark, ErrorCode::missing,
-                "vehicle: found no '" + what + "', which " + manoeuvre + " needs", 1, "vehicle"});
+                "vehicle: found no '" + what + "', expected it for " + manoeuvre, 1, "vehicle"});
   };
   if (needs.steering && !v.steering) lacks("steering");
   if (needs.drive && !v.drive) lacks("drive");
