@@ -19,6 +19,7 @@
 #include "floatframe/description/elements.hpp"
 #include "floatframe/description/joint_list.hpp"
 #include "floatframe/description/output_list.hpp"
+#include "floatframe/description/vehicle_description.hpp"
 #include "floatframe/math/piecewise_polynomial.hpp"
 #include "floatframe/math/pose.hpp"
 #include "floatframe/math/types.hpp"
@@ -306,6 +307,7 @@ struct ModelDescription {
   std::vector<OutputDescription> measures;  ///< of formulas; no columns
   /// Initial modal amplitudes and their rates by body name.
   std::map<std::string, VecX> amplitudes, amplitude_rates;
+  std::optional<VehicleDescription> vehicle;  ///< its roles, for manoeuvres
   SimulationDescription simulation;
 
   const std::vector<ElementDescription>& elements(ElementList list) const {

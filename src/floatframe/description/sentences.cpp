@@ -345,6 +345,14 @@ Complaint input_initial(double initial, const std::optional<double>& low,
                                 : "not above max, " + number_text(*high));
 }
 
+std::string tyre_of_two_wheels(const std::string& tyre) {
+  return "found '" + tyre + "', which another wheel has, expected a tyre for each wheel";
+}
+
+std::string no_axle() { return "found no axle, expected one or more, from the front to the rear"; }
+
+std::string ratio_of_zero() { return "found 0, expected another number: the input does nothing"; }
+
 Complaint model_name(const std::string& name) {
   if (name.size() > 100) return "expected a name of at most 100 characters";  // it names a folder
   if (name.starts_with(' ') || name.ends_with(' '))

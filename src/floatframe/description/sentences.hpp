@@ -169,6 +169,11 @@ Complaint clamp_without_limits(bool clamp, const std::optional<double>& low,
 Complaint input_limits(const std::optional<double>& low, const std::optional<double>& high);
 Complaint input_initial(double initial, const std::optional<double>& low,
                         const std::optional<double>& high);
+/// The section `vehicle`.
+std::string tyre_of_two_wheels(const std::string& tyre);
+std::string no_axle();
+std::string ratio_of_zero();
+
 /// A component, counted from 0, that is not one of the `n`; a model file counts them from 1.
 std::string number_of(const char* what, int component, int n, bool from_file);
 std::string weld_does_not_move();

@@ -83,6 +83,7 @@ void flexible(const FlexibleDescription& f, const Entity& body);
 void flexible(const FlexibleBody& f, const Entity& body);
 void roads(const ModelDescription& d, ErrorList& errors);
 void inputs(const ModelDescription& d, ErrorList& errors);
+void vehicle(const ModelDescription& d, const Names& names, ErrorList& errors);
 void amplitudes(const ModelDescription& d, const Names& names, ErrorList& errors);
 
 }  // namespace validation

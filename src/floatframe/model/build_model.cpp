@@ -49,6 +49,7 @@ Model build_model(const ModelDescription& description, FlexibleBuilder& flexible
   b.model.name = description.name;
   b.model.gravity = description.gravity;
   b.model.simulation = description.simulation;
+  b.model.vehicle = description.vehicle;
   validate(description, b.errors);
   b.errors.throw_if_any();
   b.bodies(flexible);

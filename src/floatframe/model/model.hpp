@@ -237,6 +237,7 @@ struct Model {
   std::vector<VecX> amplitudes, amplitude_rates;  ///< start values, per body
   double mean_mass = 1.0;  ///< of the bodies with mass: scales the penalty [kg]
   SimulationDescription simulation;
+  std::optional<VehicleDescription> vehicle;  ///< for manoeuvres; the motion does not depend on it
   ModelHints hints;     ///< for checks of the model; nothing else depends on them
   bool linear = false;  ///< it is evaluated for a linear system: delays are approximated
   /// What prescribes a coordinate of a joint; nullptr: nothing.

@@ -173,8 +173,8 @@ class ModelHash {
   }
   void add(const Model& model) {
     const auto& [name, gravity, bodies, joints, elements, links, roads, inputs, markers, outputs,
-                 measures, until, gauges, amplitudes, amplitude_rates, mean_mass, simulation, hints,
-                 linear] = model;
+                 measures, until, gauges, amplitudes, amplitude_rates, mean_mass, simulation,
+                 vehicle, hints, linear] = model;  // manoeuvres read `vehicle`, no step does
     all(gravity, bodies, joints, elements, links, roads, inputs, markers, outputs, mean_mass);
     for (const Output& o : measures) add(o);
     if (until) add(*until);

@@ -22,6 +22,7 @@ void validate(const ModelDescription& d, ErrorList& errors) {
   validation::joints(d, names, errors);
   validation::roads(d, errors);
   validation::inputs(d, errors);
+  validation::vehicle(d, names, errors);
   validation::elements(d, names, errors);
   validation::amplitudes(d, names, errors);
   validation::outputs(d, names, errors);

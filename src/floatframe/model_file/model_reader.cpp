@@ -22,7 +22,7 @@ const char* const top_keys[] = {"floatframe", "parameters",  "points",    "bodie
                                 "subsystems", "external"};
 
 /// Keys allowed only in the model file itself.
-constexpr const char* whole_keys[] = {"gravity", "snap", "simulation"};
+constexpr const char* whole_keys[] = {"gravity", "snap", "simulation", "vehicle"};
 
 /// snap: false, or {angle: 3e-3, distance: 1e-3}
 void read_snap(const YamlValue& value, SnapDescription& snap) {
@@ -126,6 +126,7 @@ ModelDescription read_model(const std::string& path,
           read_inputs, read_forces, read_controllers, read_initial, read_outputs})
       every(*root, [&](const ModelInstance& self) { part(self, model); });
     read_simulation(*root, model);
+    read_vehicle(*root, model);
     if (model.description.outputs.empty()) default_outputs(model);
     read_added_outputs(*root, model);
     if (errors.empty() && model.description.bodies.empty())

@@ -47,6 +47,8 @@ void read_couplings(const ModelInstance& self, ReadModel& model);
 void read_controllers(const ModelInstance& self, ReadModel& model);
 void read_roads(const ModelInstance& self, ReadModel& model);
 void read_inputs(const ModelInstance& self, ReadModel& model);
+/// Of the model file itself; after all that it names.
+void read_vehicle(const ModelInstance& self, ReadModel& model);
 void read_forces(const ModelInstance& self, ReadModel& model);
 void read_initial(const ModelInstance& self, ReadModel& model);
 void read_outputs(const ModelInstance& self, ReadModel& model);

@@ -1,0 +1,149 @@
+// floatframe vehicle: manoeuvres of a vehicle and their figures.
+#include <memory>
+#include <numbers>
+#include <utility>
+
+#include "floatframe/apps/commands.hpp"
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/description/inertia_choice.hpp"
+#include "floatframe/model_file/model_fingerprint.hpp"
+#include "floatframe/page/kept_run.hpp"
+#include "floatframe/vehicle/manoeuvre_report.hpp"
+#include "floatframe/vehicle/rig_report.hpp"
+
+namespace floatframe {
+namespace {
+
+struct VehicleArguments {
+  ModelArguments model;
+  std::string manoeuvre, rig, travel, speed, radius, angle, step, coordinates, inertia, out;
+  bool right = false, json = false;
+};
+
+/// "80km/h", "22.2m/s", or a number of m/s.
+double speed_of(const std::string& text) {
+  std::string number = text.empty() ? "80km/h" : text;
+  double factor = 1.0;
+  for (const auto& [unit, size] : {std::pair{"km/h", 1.0 / 3.6}, std::pair{"m/s", 1.0}})
+    if (number.ends_with(unit)) {
+      number.resize(number.size() - std::string(unit).size());
+      factor = size;
+      break;
+    }
+  while (number.ends_with(' ')) number.pop_back();
+  return factor * positive_number("--speed", number);
+}
+
+SteadyCircleOptions circle_options(const VehicleArguments& a, double speed) {
+  SteadyCircleOptions o{.speed = speed, .right = a.right};
+  if (!a.radius.empty()) o.radius = positive_number("--radius", a.radius);
+  return o;
+}
+
+StepSteerOptions step_options(const VehicleArguments& a, double speed) {
+  StepSteerOptions o{.speed = speed};
+  if (!a.angle.empty()) o.angle = positive_number("--angle", a.angle) * std::numbers::pi / 180.0;
+  if (a.right) o.angle = -o.angle;
+  return o;
+}
+
+/// Of the trimmed start.
+double start_speed(const VehicleArguments& a, double speed) {
+  return a.manoeuvre == "steady-circle" ? first_speed(circle_options(a, speed)) : speed;
+}
+
+ManoeuvreReport drive(VehicleRun& run, const VehicleArguments& a, double speed) {
+  const std::string& model = run.model().name;
+  if (a.manoeuvre == "step-steer")
+    return manoeuvre_report(model, step_steer(run, step_options(a, speed)));
+  if (a.manoeuvre == "steady-circle")
+    return manoeuvre_report(model, steady_circle(run, circle_options(a, speed)));
+  return manoeuvre_report(model, lane_change(run, speed));
+}
+
+/// results.csv, report.html and summary.json, of the record.
+void save_record(VehicleRun& run, const VehicleArguments& a, const ModelFingerprint& used) {
+  if (a.out.empty()) return;
+  KeptRun kept;
+  kept.options = run.options();
+  kept.result.table = std::move(run.table);
+  RunSummary& summary = kept.result.summary;
+  StepCounters& counters = summary;
+  counters = run.counters();
+  summary.model = run.model().name;
+  summary.coordinates = word(run.options().coordinates);
+  summary.inertia = word(run.options().inertia);
+  summary.step = run.options().step;
+  summary.duration = run.now().time;
+  summary.start = run.start_report();
+  kept.model_file = a.model.path;
+  kept.settings = a.model.settings;
+  kept.source.files = used.files;
+  save_run(run.model(), kept, a.out);
+}
+
+int put_on_rig(const VehicleArguments& a, const ModelDescription& description) {
+  RigOptions options;
+  if (!a.travel.empty()) options.travel = positive_number("--travel", a.travel);
+  const ManoeuvreReport report =
+      rig_report(description.name, suspension_figures(description, options));
+  print(a.json ? report.json : report.text);
+  return exit_code::done;
+}
+
+int drive_vehicle(const VehicleArguments& a) {
+  const double speed = speed_of(a.speed);
+  ModelFingerprint used;
+  ModelDescription description = read_model(a.model, false, &used);
+  set_time_options(description.simulation, a.step, "");
+  set_formulation(description.simulation, a.coordinates, a.inertia);
+  check_inertia_method(description, description.simulation.inertia);
+  if (!a.rig.empty()) return put_on_rig(a, description);
+  const VehicleNeeds needs{
+      .steering = true, .drive = true, .width = a.manoeuvre == "double-lane-change"};
+  VehicleRun run(vehicle_setup(std::move(description), a.manoeuvre, needs, start_speed(a, speed)));
+  const ManoeuvreReport report = drive(run, a, speed);
+  save_record(run, a, used);
+  print(a.json ? report.json : report.text);
+  return exit_code::done;
+}
+
+}  // namespace
+
+Command vehicle_command() {
+  const auto a = std::make_shared<VehicleArguments>();
+  a->manoeuvre = "step-steer";
+  return {
+      .name = "vehicle",
+      .help = "Drive a manoeuvre with the model of a vehicle, and print its figures",
+      .options = joined(
+          model_options(a->model),
+          {word_option("--manoeuvre", a->manoeuvre,
+                       {"steady-circle", "step-steer", "double-lane-change"},
+                       "Figures of ISO 4138 (constant radius), ISO 7401 or ISO 3888-2"),
+           word_option("--rig", a->rig, {"k-and-c"},
+                       "Instead: toe, camber, track and wheel rate over travel, roll and steer"),
+           text_option("--travel", a->travel, "METRES",
+                       "Largest travel on the rig, up and down (default 0.06)"),
+           text_option(
+               "--speed", a->speed, "SPEED",
+               "With its unit, km/h or m/s (default 80km/h): of the last point of a circle, "
+               "else at the start"),
+           text_option("--radius", a->radius, "METRES", "Of the circle (default 100)"),
+           text_option("--angle", a->angle, "DEGREES",
+                       "Of the step at the road wheels (default 1)"),
+           flag("--right", a->right, "Circle or step to the right instead of to the left"),
+           text_option("--step", a->step, "SECONDS", "Time step, otherwise that of the model"),
+           coordinates_option(a->coordinates), inertia_option(a->inertia),
+           flag("--json", a->json, "JSON on standard output"),
+           text_option("-o,--out", a->out, "FOLDER",
+                       "Also write results.csv, report.html and summary.json there")}),
+      .footer =
+          "The model needs the section `vehicle` (docs/vehicle.md) and a flat road. It starts "
+          "trimmed:\n"
+          "driven straight on until nothing changes, which is time zero.\n"
+          "Exit codes: 0 done, 1 the start or the manoeuvre fails, 2 bad input.",
+      .run = [a] { return drive_vehicle(*a); }};
+}
+
+}  // namespace floatframe

@@ -1,0 +1,228 @@
+#include "floatframe/vehicle/suspension_rig.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "floatframe/stepping/stepping.hpp"
+#include "floatframe/vehicle/circle_figures.hpp"
+#include "floatframe/vehicle/vehicle_setup.hpp"
+
+namespace floatframe {
+namespace {
+
+struct RiggedWheel {
+  const VehicleWheel* wheel;
+  std::string name;  ///< "front.left"
+  bool left;
+};
+
+std::vector<RiggedWheel> rigged_wheels(const VehicleDescription& v) {
+  std::vector<RiggedWheel> out;
+  for (const VehicleAxle& a : v.axles) {
+    out.push_back({&a.left, a.name + ".left", true});
+    out.push_back({&a.right, a.name + ".right", false});
+  }
+  return out;
+}
+
+const BodyDescription& rig_body(const ModelDescription& d, const std::string& name) {
+  const auto it = std::ranges::find(d.bodies, name, &BodyDescription::name);
+  if (it == d.bodies.end())
+    throw InputError(ErrorCode::not_found, "vehicle: unknown body '" + name + "'");
+  return *it;
+}
+
+AttachmentDescription rig_place(const std::string& body, const Vec3& point) {
+  AttachmentDescription out;
+  out.body = body;
+  out.point = point;
+  return out;
+}
+
+/// The chassis is welded to the ground where it is drawn.
+void hold_chassis(ModelDescription& d) {
+  const std::string& chassis = d.vehicle->chassis;
+  std::erase_if(d.joints, [&](const JointDescription& j) {
+    return (j.parent.body == ground_name && j.child.body == chassis) ||
+           (j.child.body == ground_name && j.parent.body == chassis);
+  });
+  JointDescription weld;
+  weld.name = "vehicle.rig.chassis";
+  weld.type = JointType::weld;
+  weld.parent = rig_place(ground_name, rig_body(d, chassis).X_WB.p);
+  weld.child = rig_place(chassis, rig_body(d, chassis).X_WB.p);
+  d.joints.push_back(std::move(weld));
+}
+
+/// A plane below the wheel centre that a prismatic joint holds at the height `travel`.
+void hold_wheel(ModelDescription& d, const RiggedWheel& w, double travel) {
+  const Vec3 centre = design_centre(rig_body(d, w.wheel->wheel));
+  const std::string name = "vehicle.rig." + w.name;
+  BodyDescription plate;
+  plate.name = name;
+  plate.X_WB.p = centre;
+  plate.X_WT = plate.X_WB;
+  plate.kind = RigidDescription{};
+  d.bodies.push_back(std::move(plate));
+  JointDescription lift;
+  lift.name = name;
+  lift.type = JointType::prismatic;
+  lift.parent = rig_place(ground_name, centre);
+  lift.child = rig_place(name, centre);
+  lift.axis = Vec3::UnitZ();
+  lift.motion = TimeFunction{.pieces = PiecewisePolynomial::polynomial({travel})};
+  d.joints.push_back(std::move(lift));
+  InPlane plane;
+  plane.a = rig_place(name, centre);
+  plane.b = rig_place(w.wheel->wheel, centre);
+  plane.axis = Vec3::UnitZ();
+  d.constraints.push_back({name, plane, {}});
+  std::erase_if(d.forces, [&](const ElementDescription& e) { return e.name == w.wheel->tyre; });
+  const auto spin = std::ranges::find(d.joints, w.wheel->spin, &JointDescription::name);
+  if (spin == d.joints.end() || spin->type != JointType::revolute) return;
+  spin->velocity.clear();
+  spin->motion = TimeFunction{.pieces = PiecewisePolynomial::polynomial({0.0})};
+}
+
+/// Nine outputs of a wheel: its centre, a point 1 m to the left on its axis, the plane's force.
+void measure_wheel(ModelDescription& d, const RiggedWheel& w) {
+  const Vec3 centre = design_centre(rig_body(d, w.wheel->wheel));
+  const auto add = [&](const char* what, OutputType type, int component, const Vec3& point) {
+    OutputDescription o;
+    o.name = "vehicle.rig." + w.name + "." + what + "xyz"[component];
+    o.type = type;
+    o.component = component;
+    if (type == OutputType::position) {
+      o.at = rig_place(w.wheel->wheel, point);
+    } else {
+      o.entity = "vehicle.rig." + w.name;
+      o.constraint = true;
+    }
+    d.outputs.push_back(std::move(o));
+  };
+  for (int k = 0; k < 3; ++k) add("centre_", OutputType::position, k, centre);
+  for (int k = 0; k < 3; ++k) add("axis_", OutputType::position, k, centre + Vec3::UnitY());
+  for (int k = 0; k < 3; ++k) add("force_", OutputType::joint_force, k, centre);
+}
+
+struct RiggedPoint {
+  std::vector<double> travel;  ///< of each wheel [m]
+  std::optional<double> input;
+};
+
+ModelDescription rigged(const ModelDescription& description, const RiggedPoint& point) {
+  ModelDescription d = description;
+  d.outputs.clear();
+  d.simulation.until = nullptr;
+  d.simulation.start = Start::equilibrium;
+  d.simulation.state = nullptr;
+  d.simulation.offset.clear();
+  d.simulation.velocity = Vec3::Zero();
+  hold_chassis(d);
+  const std::vector<RiggedWheel> wheels = rigged_wheels(*description.vehicle);
+  for (std::size_t k = 0; k < wheels.size(); ++k) {
+    hold_wheel(d, wheels[k], point.travel[k]);
+    measure_wheel(d, wheels[k]);
+  }
+  if (point.input)
+    std::ranges::find(d.inputs, d.vehicle->steering->input, &InputDescription::name)->initial =
+        *point.input;
+  return d;
+}
+
+RigWheel wheel_of(const double* y, bool left, const Vec3& centre, Vec3& lowest) {
+  const Eigen::Map<const Vec3> c(y), far(y + 3), force(y + 6);
+  const Vec3 n = (far - c).normalized();
+  const double outwards = left ? -1.0 : 1.0;
+  RigWheel out;
+  out.height = c.z() - centre.z();
+  out.x = c.x() - centre.x();
+  out.y = c.y() - centre.y();
+  out.steer = std::atan2(-n.x(), n.y());
+  out.toe = outwards * out.steer;
+  out.camber = outwards * std::asin(n.z());
+  out.force = force.z();
+  const Vec3 up = Vec3::UnitZ() - n.z() * n;
+  lowest = c - centre.z() / up.norm() * up;
+  return out;
+}
+
+RigPoint measured_point(const ModelDescription& description, const RiggedPoint& point) {
+  const Simulation simulation(build_model(rigged(description, point)));
+  const std::vector<RiggedWheel> wheels = rigged_wheels(*description.vehicle);
+  RigPoint out;
+  out.travel = point.travel[0];
+  out.input = point.input.value_or(0.0);
+  for (std::size_t k = 0; k < wheels.size(); k += 2) {
+    RigAxle axle;
+    Vec3 left, right;
+    const auto wheel = [&](std::size_t i, Vec3& lowest) {
+      return wheel_of(simulation.outputs().data() + 9 * i, wheels[i].left,
+                      design_centre(rig_body(description, wheels[i].wheel->wheel)), lowest);
+    };
+    axle.left = wheel(k, left);
+    axle.right = wheel(k + 1, right);
+    axle.track = left.y() - right.y();
+    out.axles.push_back(axle);
+  }
+  return out;
+}
+
+/// The wheel rates are slopes over the heights of each wheel.
+void find_rates(std::vector<RigPoint>& points) {
+  for (std::size_t axle = 0; axle < points.front().axles.size(); ++axle)
+    for (RigWheel RigAxle::*side : {&RigAxle::left, &RigAxle::right}) {
+      std::vector<double> height, force;
+      for (const RigPoint& p : points) {
+        height.push_back((p.axles[axle].*side).height);
+        force.push_back((p.axles[axle].*side).force);
+      }
+      const std::vector<double> rate = slopes(height, force);
+      for (std::size_t k = 0; k < points.size(); ++k) (points[k].axles[axle].*side).rate = rate[k];
+    }
+}
+
+void require_vehicle(const ModelDescription& d) {
+  if (!d.vehicle)
+    throw InputError(ErrorCode::missing,
+                     "k-and-c: found no section 'vehicle', expected one with the roles of bodies, "
+                     "tyres and inputs");
+}
+
+}  // namespace
+
+std::vector<RigPoint> suspension_sweep(const ModelDescription& description, RigSweep sweep,
+                                       const RigOptions& options) {
+  require_vehicle(description);
+  const VehicleDescription& v = *description.vehicle;
+  if (sweep == RigSweep::steer && !v.steering)
+    throw InputError(ErrorCode::missing, v.origin.mark,
+                     "vehicle: found no 'steering', expected it for a steer sweep");
+  std::vector<RigPoint> out;
+  for (int k = 0; k < options.points; ++k) {
+    const double part = options.points > 1 ? 2.0 * k / (options.points - 1) - 1.0 : 0.0;
+    RiggedPoint point;
+    for (std::size_t i = 0; i < 2 * v.axles.size(); ++i) {
+      const bool against = sweep == RigSweep::roll && i % 2 == 1;
+      const double travel = sweep == RigSweep::steer ? 0.0 : part * options.travel;
+      point.travel.push_back(against ? -travel : travel);
+    }
+    if (sweep == RigSweep::steer) point.input = part * options.angle * v.steering->ratio;
+    out.push_back(measured_point(description, point));
+  }
+  if (sweep != RigSweep::steer) find_rates(out);
+  return out;
+}
+
+RigFigures suspension_figures(const ModelDescription& description, const RigOptions& options) {
+  RigFigures out;
+  out.travel = suspension_sweep(description, RigSweep::travel, options);
+  out.roll = suspension_sweep(description, RigSweep::roll, options);
+  if (description.vehicle->steering)
+    out.steer = suspension_sweep(description, RigSweep::steer, options);
+  for (const VehicleAxle& a : description.vehicle->axles) out.axles.push_back(a.name);
+  return out;
+}
+
+}  // namespace floatframe

@@ -1,0 +1,62 @@
+#pragma once
+// A suspension on a rig: the chassis is held, the tyres are taken off, and the wheel centres are
+// moved to prescribed heights; each point is an equilibrium of the model. What is found is the
+// kinematics of the suspension with the compliance of its springs, bushings and flexible bodies
+// under these heights and the weight of its parts.
+//
+// With the unit vector n of the wheel axis, to the left in the design configuration, c the wheel
+// centre, h its height in the design configuration:
+//   steer  = atan2(-n_x, n_y)             road-wheel angle, positive to the left [rad]
+//   toe    = -steer left, +steer right    positive: toe-in [rad]
+//   camber = -asin(n_z) left, +asin(n_z) right   positive: the top leans outwards [rad]
+//   e      = c - h (z - n_z n)/|z - n_z n|       lowest point of a wheel of the radius h [m]
+//   track  = e_y left - e_y right                [m]
+//   wheel rate = dF_z/dz                  slope of the force that holds the centre [N/m]
+#include <string>
+#include <vector>
+
+#include "floatframe/description/description.hpp"
+
+namespace floatframe {
+
+enum class RigSweep { travel, roll, steer };
+inline constexpr const char* rig_sweep_words[] = {"travel", "roll", "steer"};
+
+struct RigOptions {
+  double travel = 0.06;  ///< largest, up and down [m]; in roll: of the left wheels, right opposite
+  double angle = 0.35;   ///< largest road-wheel angle by the input [rad]
+  int points = 13;       ///< of a sweep, at least 3, odd: the design height is among them
+};
+
+struct RigWheel {
+  double height = 0.0;      ///< of the centre above that of the design configuration [m]
+  double x = 0.0, y = 0.0;  ///< of the centre, from there [m]
+  double steer = 0.0, toe = 0.0, camber = 0.0;  ///< [rad]
+  double force = 0.0;                           ///< that holds the wheel up [N]
+  double rate = 0.0;                            ///< over the travel [N/m]; in a steer sweep zero
+};
+
+struct RigAxle {
+  RigWheel left, right;
+  double track = 0.0;  ///< [m]
+};
+
+struct RigPoint {
+  double travel = 0.0;         ///< of the left wheels [m]
+  double input = 0.0;          ///< value of the steering input
+  std::vector<RigAxle> axles;  ///< in the order of the description
+};
+
+/// The points of a sweep. Throws InputError if the section `vehicle` is missing, or its steering in
+/// a steer sweep; RunError where an equilibrium is not found.
+std::vector<RigPoint> suspension_sweep(const ModelDescription& description, RigSweep sweep,
+                                       const RigOptions& options);
+
+struct RigFigures {
+  std::vector<std::string> axles;             ///< names
+  std::vector<RigPoint> travel, roll, steer;  ///< steer is empty without a steering input
+};
+
+RigFigures suspension_figures(const ModelDescription& description, const RigOptions& options);
+
+}  // namespace floatframe

@@ -1,0 +1,124 @@
+#include "floatframe/vehicle/vehicle_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <tuple>
+
+#include "floatframe/loops/run_error.hpp"
+#include "floatframe/model/model.hpp"
+#include "floatframe/run/run.hpp"
+
+namespace floatframe {
+namespace {
+
+const Input& input_of(const Model& model, const std::string& name) {
+  return *std::ranges::find(model.inputs, name, &Input::name);
+}
+
+}  // namespace
+
+VehicleRun::VehicleRun(const VehicleSetup& setup)
+    : simulation_(build_model(setup.description)),
+      vehicle_(*setup.description.vehicle),
+      axles_(setup.axles),
+      wheel_radius_(setup.wheel_radius),
+      every_(steps_per_row(simulation_.options())) {
+  for (const Body& body : model().bodies) mass_ += body.data->invariants.m;
+  const std::vector<std::string> names = simulation_.output_names();
+  for (std::size_t k = 0; k < index_.size(); ++k)
+    index_[k] = std::ranges::find(names, measured_names[k]) - names.begin();
+  if (vehicle_.drive) {
+    // The torque is F R, the input `ratio` times the torque.
+    const Input& drive = input_of(model(), vehicle_.drive->input);
+    const double factor = 1.0 / (vehicle_.drive->ratio * wheel_radius_);
+    std::tie(lowest_, highest_) = std::minmax({drive.low * factor, drive.high * factor});
+  }
+  table.columns.push_back({"time", "s"});
+  for (const Output& o : model().outputs) table.columns.push_back({o.name, o.unit});
+  for (const Input& i : model().inputs) table.columns.push_back({"inputs." + i.name, i.unit});
+  read();
+}
+
+void VehicleRun::set(const VehicleInput& input, double value) {
+  const Input& limits = input_of(model(), input.input);
+  simulation_.set_input(input.input, std::clamp(value * input.ratio, limits.low, limits.high));
+}
+
+void VehicleRun::step(double steering, double force) {
+  if (vehicle_.steering) set(*vehicle_.steering, steering);
+  if (vehicle_.drive) set(*vehicle_.drive, force * wheel_radius_);
+  if (const StepReport report = simulation_.step(); !report)
+    throw RunError(ErrorCode::step_failed, simulation_.failure(), simulation_.thrown());
+  ++steps_;
+  read();
+  now_.steering = steering;
+  if (recording_) record();
+}
+
+void VehicleRun::read() {
+  now_.time = simulation_.time() - begin_;
+  DriverView& v = now_.view;
+  v.x = measured(Measured::x);
+  v.y = measured(Measured::y);
+  v.yaw = measured(Measured::yaw);
+  v.yaw_rate = measured(Measured::yaw_rate);
+  const double c = std::cos(v.yaw), s = std::sin(v.yaw);
+  const double vx = measured(Measured::vx), vy = measured(Measured::vy);
+  v.speed = c * vx + s * vy;
+  now_.path_speed = std::hypot(vx, vy);
+  now_.sideslip = std::atan2(c * vy - s * vx, v.speed);
+  now_.lateral_acceleration = c * measured(Measured::ay) - s * measured(Measured::ax);
+  now_.roll = measured(Measured::roll);
+}
+
+void VehicleRun::begin_record() {
+  begin_ = simulation_.time();
+  now_.time = 0.0;
+  recording_ = true;
+  steps_ = 0;
+  record();
+}
+
+void VehicleRun::record() {
+  if (steps_ % every_ != 0) return;
+  table.data.push_back(now_.time);
+  for (const double y : simulation_.outputs()) table.data.push_back(y);
+  for (const double u : simulation_.inputs()) table.data.push_back(u);
+}
+
+TrimmedInputs drive_trimmed(VehicleRun& run, PathFollower& follower, SpeedController& controller,
+                            double speed) {
+  constexpr double steady_rate = 5e-5 * std::numbers::pi / 180.0, steady_speed = 5e-5;
+  constexpr double longest = 120.0, window = 1.0;
+  const double dt = run.step_size();
+  double since = 0.0, low = 0.0, high = 0.0, rate = 0.0;
+  TrimmedInputs out;
+  for (double t = 0.0; t < longest; t += dt) {
+    out = {.steering = follower.steer(run.now().view, dt),
+           .force = controller.force(speed, run.now().view.speed, dt)};
+    run.step(out.steering, out.force);
+    const DriverView& v = run.now().view;
+    rate = std::abs(v.yaw_rate);
+    low = std::min(low, v.speed);
+    high = std::max(high, v.speed);
+    if (rate > steady_rate || high - low > steady_speed)
+      since = 0.0, low = high = v.speed;
+    else
+      since += dt;
+    if (since >= window) {
+      run.begin_record();
+      return out;
+    }
+  }
+  throw RunError(
+      ErrorCode::not_steady,
+      fmt::format("the vehicle does not settle at {:g} m/s: after {:g} s it drives {:.6g} "
+                  "m/s with a yaw rate of {:.2g} deg/s",
+                  speed, longest, run.now().view.speed, rate * 180.0 / std::numbers::pi));
+}
+
+}  // namespace floatframe

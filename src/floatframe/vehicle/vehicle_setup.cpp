@@ -1,0 +1,122 @@
+#include "floatframe/vehicle/vehicle_setup.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace floatframe {
+namespace {
+
+const BodyDescription& body_of(const ModelDescription& d, const std::string& name) {
+  const auto it = std::ranges::find(d.bodies, name, &BodyDescription::name);
+  if (it == d.bodies.end())
+    throw InputError(ErrorCode::not_found, "vehicle: unknown body '" + name + "'");
+  return *it;
+}
+
+void require_roles(const ModelDescription& d, const std::string& manoeuvre,
+                   const VehicleNeeds& needs) {
+  if (!d.vehicle)
+    throw InputError(ErrorCode::missing,
+                     manoeuvre +
+                         ": found no section 'vehicle', expected one with the roles of "
+                         "bodies, tyres and inputs");
+  const VehicleDescription& v = *d.vehicle;
+  ErrorList errors;
+  const auto lacks = [&](const std::string& what) {
+    errors.add({v.origin.mark, ErrorCode::missing,
+                "vehicle: found no '" + what + "', expected it for " + manoeuvre, 1, "vehicle"});
+  };
+  if (needs.steering && !v.steering) lacks("steering");
+  if (needs.drive && !v.drive) lacks("drive");
+  if (needs.width && v.width == 0.0) lacks("width");
+  if (v.axles.size() < 2)
+    errors.add({v.origin.of("axles"), ErrorCode::wrong_count,
+                "vehicle.axles: found one axle, expected two or more for " + manoeuvre, 1,
+                "vehicle.axles"});
+  if (d.simulation.start == Start::state)
+    errors.add({d.simulation.origin.of("start"), ErrorCode::exclusive,
+                "simulation.start: found a state, expected given or equilibrium for " + manoeuvre,
+                1, "simulation.start"});
+  errors.throw_if_any();
+}
+
+void add_measured(ModelDescription& d, const Vec3& driver) {
+  const auto add = [&](Measured which, OutputType type, int component, bool point) {
+    OutputDescription o;
+    o.name = measured_names[int(which)];
+    o.type = type;
+    o.component = component;
+    o.at.body = d.vehicle->chassis;
+    if (point) o.at.point = driver;
+    d.outputs.push_back(std::move(o));
+  };
+  for (int k = 0; k < 3; ++k) add(Measured(int(Measured::x) + k), OutputType::position, k, true);
+  for (int k = 0; k < 3; ++k) add(Measured(int(Measured::vx) + k), OutputType::velocity, k, true);
+  for (int k = 0; k < 3; ++k)
+    add(Measured(int(Measured::ax) + k), OutputType::acceleration, k, true);
+  for (int k = 0; k < 3; ++k)
+    add(Measured(int(Measured::roll) + k), OutputType::rotation, k, false);
+  add(Measured::yaw_rate, OutputType::angular_velocity, 2, false);
+}
+
+void add_load(ModelDescription& d, const std::string& wheel, const std::string& tyre) {
+  OutputDescription o;
+  o.name = "vehicle." + wheel + ".load";
+  o.type = OutputType::force;
+  o.entity = tyre;
+  d.outputs.push_back(std::move(o));
+}
+
+/// A wheel rolls at v/R; about an axis that points to the right the other way round.
+void spin_up(ModelDescription& d, const VehicleWheel& wheel, double rate) {
+  const auto joint = std::ranges::find(d.joints, wheel.spin, &JointDescription::name);
+  if (joint == d.joints.end() || joint->type != JointType::revolute) return;
+  const bool turned = joint->child.body != wheel.wheel;
+  const double along = joint->axis.y() / joint->axis.norm() * (turned ? -1.0 : 1.0);
+  joint->velocity = {rate * (along < 0.0 ? -1.0 : 1.0)};
+}
+
+}  // namespace
+
+Vec3 design_centre(const BodyDescription& body) {
+  const auto* rigid = std::get_if<RigidDescription>(&body.kind);
+  return body.X_WB.p + (rigid ? Vec3(body.X_WB.R * rigid->p_BC) : Vec3(Vec3::Zero()));
+}
+
+VehicleSetup vehicle_setup(ModelDescription description, const std::string& manoeuvre,
+                           const VehicleNeeds& needs, double speed) {
+  require_roles(description, manoeuvre, needs);
+  VehicleSetup out{.description = std::move(description), .axles = {}};
+  ModelDescription& d = out.description;
+  const VehicleDescription& v = *d.vehicle;
+  const Vec3 driver = v.driver.value_or(body_of(d, v.chassis).X_WB.p);
+  const auto centre = [&](const VehicleWheel& w) { return design_centre(body_of(d, w.wheel)); };
+  const auto axle_x = [&](const VehicleAxle& a) {
+    return 0.5 * (centre(a.left).x() + centre(a.right).x());
+  };
+  out.axles = {.front = axle_x(v.axles.front()) - driver.x(),
+               .rear = driver.x() - axle_x(v.axles.back())};
+  if (!(out.axles.wheelbase() > 0.0))
+    throw InputError(ErrorCode::geometry, v.origin.of("axles"),
+                     "vehicle.axles: found the first axle behind the last one, expected them from "
+                     "the front, at the largest x, to the rear");
+  for (const VehicleAxle& a : v.axles)
+    out.wheel_radius += 0.5 * (centre(a.left).z() + centre(a.right).z());
+  out.wheel_radius /= double(v.axles.size());
+  if (!(out.wheel_radius > 0.0))
+    throw InputError(ErrorCode::geometry, v.origin.of("axles"),
+                     "vehicle.axles: found wheel centres that are not above z = 0, expected the "
+                     "road there");
+  d.simulation.velocity = {speed, 0.0, 0.0};
+  d.simulation.input = InputUse::ramp;  // from one step to the next: order two
+  for (const VehicleAxle& a : v.axles)
+    for (const VehicleWheel* w : {&a.left, &a.right}) spin_up(d, *w, speed / out.wheel_radius);
+  add_measured(d, driver);
+  for (const VehicleAxle& a : v.axles) {
+    add_load(d, a.name + ".left", a.left.tyre);
+    add_load(d, a.name + ".right", a.right.tyre);
+  }
+  return out;
+}
+
+}  // namespace floatframe

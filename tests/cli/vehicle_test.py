@@ -1,0 +1,59 @@
+#!/usr/bin/env python3
+"""floatframe vehicle: figures, files and messages, with the single-track model of tests/data/vehicle."""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BINARY = os.environ.get("FLOATFRAME_BINARY") or (
+    sys.argv.pop(1) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else "build/floatframe")
+BINARY = str(pathlib.Path(BINARY).resolve())
+MODEL = pathlib.Path(__file__).resolve().parent.parent / "data" / "vehicle" / "single_track.yaml"
+
+
+def vehicle(*arguments):
+    return subprocess.run([BINARY, "vehicle", *map(str, arguments)], capture_output=True, text=True, timeout=280)
+
+
+class Vehicle(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+
+    def test_step_steer(self):
+        found = vehicle(MODEL, "--manoeuvre", "step-steer", "--speed", "80km/h", "--json", "--out", self.folder / "out")
+        self.assertEqual((found.returncode, found.stderr), (0, ""))
+        figures = json.loads(found.stdout)
+        # Half of the table's step of 2 deg, whose steady yaw rate is 10.66593737 deg/s.
+        self.assertAlmostEqual(figures["responses"]["yaw_rate"]["steady"], 10.66593737 / 2, delta=1e-3)
+        self.assertLess(figures["first_second_yaw_rate_deg_s"], 1e-4)
+        self.assertLess(figures["first_second_drift_m_s"], 1e-4)
+        files = sorted(path.name for path in (self.folder / "out").iterdir())
+        self.assertIn("results.csv", files)
+        self.assertIn("summary.json", files)
+        header = (self.folder / "out" / "results.csv").read_text().splitlines()[0]
+        self.assertIn("vehicle.yaw_rate [rad/s]", header)
+        self.assertIn("inputs.steer [rad]", header)
+
+    def test_units_of_the_speed(self):
+        for speed in ("22.222222222222222m/s", "22.222222222222222", "80 km/h"):
+            found = vehicle(MODEL, "--speed", speed, "--right")
+            self.assertEqual(found.returncode, 0, found.stderr)
+            self.assertIn("from 80.00 km/h", found.stdout)
+
+    def test_messages(self):
+        found = vehicle(MODEL, "--speed", "fast")
+        self.assertEqual(found.returncode, 2)
+        self.assertIn("--speed", found.stderr)
+        text = MODEL.read_text()
+        short = self.folder / "short.yaml"
+        short.write_text(text[:text.index("vehicle:\n")] + text[text.index("simulation:"):])
+        found = vehicle(short)
+        self.assertEqual(found.returncode, 2)
+        self.assertIn("step-steer: found no section 'vehicle'", found.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
