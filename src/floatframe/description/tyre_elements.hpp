@@ -63,7 +63,7 @@ struct MagicFormulaTyre : RollingTyre {
   double stiffness_factor = 1.0;   ///< factor of LKX and LKY
 };
 
-/// TMeasy (tyres/tmeasy.hpp): values at the nominal load and at twice, in rows.
+/// TMeasy: values at the nominal load and at twice, in rows.
 struct TmeasyTyre : RollingTyre {
   double radius = 0.0;             ///< unloaded [m]
   double nominal_load = 0.0;       ///< [N]
@@ -72,14 +72,14 @@ struct TmeasyTyre : RollingTyre {
   MatX longitudinal, lateral;  ///< 2 x 5: slope [N], maximum [N], its slip, sliding [N], its slip
   MatX trail;                  ///< 2 x 3: over the contact length, slips of its zero and its end
   double longitudinal_stiffness = 0.0, lateral_stiffness = 0.0;  ///< of the carcass [N/m]
-  double rolling_radius = 0.67;  ///< share of the unloaded radius in the effective one
-  double friction = 1.0;              ///< of the road over that of the tables
-  bool normalised = true;             ///< slips; see tyres/tmeasy.hpp
-  double rolling_resistance = 0.0;    ///< torque over load and radius
+  double rolling_radius = 0.67;     ///< share of the unloaded radius in the effective one
+  double friction = 1.0;            ///< of the road over that of the tables
+  bool normalised = true;           ///< slips
+  double rolling_resistance = 0.0;  ///< torque over load and radius
 };
 
-/// Side force and aligning moment of slip angle and camber, no longitudinal force
-/// (tyres/calspan.hpp). Its load is that of the height of the wheel centre.
+/// Side force and aligning moment of slip angle and camber, no longitudinal force.
+/// Its load is that of the height of the wheel centre.
 struct CalspanTyre : RollingTyre {
   double radius = 0.0;                 ///< unloaded [m]
   double stiffness = 0.0;              ///< vertical [N/m]
