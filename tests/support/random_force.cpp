@@ -109,6 +109,14 @@ ElementDescription random_force(ElementType type, const RandomForceEnds& ends,
   if (auto* stop = std::get_if<JointStop>(&f.kind); stop && *stop->upper < *stop->lower)
     std::swap(stop->lower, stop->upper);
   if (auto* journal = std::get_if<JournalBearing>(&f.kind)) journal->kinetic = journal->friction;
+  std::visit(
+      [&](auto& keys) {
+        if constexpr (std::is_base_of_v<RollingTyre, std::remove_cvref_t<decltype(keys)>>) {
+          keys.axis = Vec3::UnitY() + 0.3 * numbers.vector();  // it does not lie
+          keys.contact = TyreContact::patch;                   // of which some numbers are
+        }
+      },
+      f.kind);
   if (auto* friction = std::get_if<BristleFriction>(&f.kind)) {  // random joints repeat each other
     friction->reaction = false;
     friction->bearing_radius = friction->axial_radius = friction->bearing_length = std::nullopt;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "floatframe/model/element_keys.hpp"
 #include "floatframe/model/element_outputs.hpp"
 #include "support/mechanism_builder.hpp"
 #include "support/random_force.hpp"
@@ -289,6 +290,12 @@ Mechanism with_joints(Mechanism m, JointType type) {
   return m;
 }
 
+namespace {
+
+bool is_road(const ElementKey& key) { return key.kind == KeyKind::road; }
+
+}  // namespace
+
 std::optional<Mechanism> with_force(Mechanism m, ElementType type, unsigned seed) {
   ModelDescription& d = m.description;
   ExampleNumbers numbers(seed);
@@ -305,6 +312,12 @@ std::optional<Mechanism> with_force(Mechanism m, ElementType type, unsigned seed
     ends.a = any();
     ends.b = any();
     if (ends.a.body == ends.b.body) continue;
+    if (std::ranges::any_of(element_keys(type), is_road)) {  // that a wheel there touches
+      RoadDescription road;
+      road.name = ends.road = "below";
+      road.pieces = PiecewisePolynomial::polynomial({ends.b.point.z() - 0.3});
+      d.roads.push_back(std::move(road));
+    }
     d.forces.push_back(random_force(type, ends, numbers));
     for (const OutputType quantity : {OutputType::force, OutputType::length, OutputType::rate}) {
       OutputDescription o;

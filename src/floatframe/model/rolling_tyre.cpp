@@ -81,7 +81,7 @@ void note_rolling_tyre(const Element& element, const RollingTyre& keys, double r
   constexpr double upright = 0.5;          // the sine of the least angle of axis and vertical
   const int marker = element.markers[0];
   const Vec3 centre = start.place(marker);
-  const Road& road = start.model.roads[static_cast<std::size_t>(element.road)];
+  const Road& road = start.model.roads[element.road];
   const double height = centre.z() - surface_at(road, centre.x(), centre.y()).z;
   if (height <= low * radius || height >= high * radius)
     notes.push_back(fmt::format(
