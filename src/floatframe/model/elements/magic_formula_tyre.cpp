@@ -19,6 +19,7 @@ namespace {
 struct MagicTyreData {
   MagicTyre tyre;
   bool mirrored = false;
+  std::vector<std::string> notes;  ///< what was ignored or assumed
 };
 
 struct MagicTyreLaw {
@@ -130,6 +131,10 @@ MagicTyreData magic_tyre_data(const TirFile& file, const MagicFormulaTyre& keys)
   data.tyre = magic_tyre(file, options);
   data.mirrored = data.tyre.mirror < 0.0;
   data.tyre.mirror = 1.0;
+  for (const std::string& note : file.notes) data.notes.push_back(keys.file + ": " + note);
+  if (data.tyre.fixed_sigma > 0.0)
+    data.notes.push_back(keys.file +
+                         ": relaxation lengths are not given, UNLOADED_RADIUS is taken");
   return data;
 }
 
@@ -231,11 +236,20 @@ ElementExample magic_tyre_example(std::size_t regime, ExampleNumbers& numbers) {
                                        numbers(0.05, 0.12));
 }
 
+void magic_tyre_note(const Element& element, const SystemMotion& start,
+                     std::vector<std::string>& notes) {
+  note_rolling_tyre(element, keys_of_tyre<MagicTyreLaw>(element),
+                    radius_of_tyre<MagicTyreLaw>(element), start, notes);
+  for (const std::string& note : data_of<MagicTyreData>(element).notes)
+    notes.push_back("tyre '" + element.name + "': " + note);
+}
+
 constexpr ElementKind magic_tyre_kind() {
   ElementKind kind = rolling_tyre_kind<MagicTyreLaw>();
   kind.about = "Magic Formula 5.2, 6.1 or 6.2 with the coefficients of a tyre property file";
   kind.keys = magic_tyre_keys;
   kind.build = magic_tyre_build;
+  kind.note = magic_tyre_note;
   kind.example = magic_tyre_example;
   return kind;
 }
