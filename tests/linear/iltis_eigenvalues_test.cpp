@@ -28,8 +28,15 @@ std::vector<IltisPoint> iltis_points() {
     for (std::string cell; std::getline(rest, cell, ',');) cells.push_back(cell);
     const auto number = [&](std::size_t k) { return std::stod(cells.at(k)); };
     if (points.empty() || points.back().tyre_law != cells[0] || points.back().speed != cells[2])
-      points.push_back({cells[0], cells[1], cells[2], number(3), number(4), number(5), number(6),
-                        number(7), {}});
+      points.push_back({cells[0],
+                        cells[1],
+                        cells[2],
+                        number(3),
+                        number(4),
+                        number(5),
+                        number(6),
+                        number(7),
+                        {}});
     points.back().eigenvalues.emplace_back(number(8), number(9));
   }
   return points;
