@@ -13,7 +13,7 @@
 namespace floatframe::test {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
+constexpr double handling_degree = std::numbers::pi / 180.0;
 
 Model handling_model(const std::string& speed, const std::string& rack,
                      const std::string& law = "calspan") {
@@ -26,7 +26,7 @@ TEST(IltisHandlingStatics, Equilibrium) {
   const StaticsResult s = statics(handling_model("0", "0", "radial"));
   const StaticsBody& chassis = body_of(s, "chassis");
   expect_digits("chassis dz [mm]", 1e3 * (chassis.position.z() - 0.57), -7.0845, 4);
-  expect_digits("pitch [deg]", chassis.roll_pitch_yaw[1] / degree, 0.14656, 5);
+  expect_digits("pitch [deg]", chassis.roll_pitch_yaw[1] / handling_degree, 0.14656, 5);
   for (const std::string side : {"left", "right"}) {
     expect_digits("front_" + side, force_of(s, "front_" + side + ".tyre").force, 3831.316, 3);
     expect_digits("rear_" + side, force_of(s, "rear_" + side + ".tyre").force, 3591.911, 3);
@@ -45,7 +45,7 @@ std::vector<double> handling_row(const ResultTable& t, std::size_t i) {
       std::cos(pitch);
   const double across =
       std::cos(yaw) * entry(t, i, "acceleration.y") - std::sin(yaw) * entry(t, i, "acceleration.x");
-  return {yaw_rate / degree, across, roll / degree, pitch / degree};
+  return {yaw_rate / handling_degree, across, roll / handling_degree, pitch / handling_degree};
 }
 
 class IltisHandling : public ::testing::TestWithParam<Manoeuvre> {};
