@@ -1,5 +1,6 @@
 // Loads of the air: coasting down by drag alone, in a wind, and the directions of the forces.
-//   m vdot = -b C (v - w)|v - w|, b = density area/2: v - w = (v0 - w)/(1 + k (v0 - w) t), k = b C/m
+//   m vdot = -b C (v - w)|v - w|, b = density area/2: with k = b C/m
+//   v - w = (v0 - w)/(1 + k (v0 - w) t)
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
