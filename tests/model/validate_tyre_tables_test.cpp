@@ -5,8 +5,6 @@
 namespace floatframe::test {
 namespace {
 
-using D = ModelDescription;
-
 template <class Keys>
 Keys& only_force(D& d) {
   return std::get<Keys>(d.forces[0].kind);

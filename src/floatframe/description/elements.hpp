@@ -65,22 +65,6 @@ struct JointSpring {
   std::optional<SignalDescription> target_rate;  ///< [m/s] or [rad/s]
 };
 
-enum class TyreLaw { vertical, radial };
-
-/// Penalty tyre on a road profile. With h = z_c - z_road(x_c) the height of the wheel centre above
-/// the road below it, hdot its rate (zdot_c - s xdot_c on a road of slope s) and
-/// f = max(0, k (R - h) - c hdot) while h < R: vertical: f upwards at the centre; radial:
-/// f / sqrt(1 + s^2) along the road normal, at the contact point.
-struct Tyre {
-  AttachmentDescription centre;
-  double radius = 0.0;     ///< unloaded [m]
-  double stiffness = 0.0;  ///< [N/m]
-  double damping = 0.0;    ///< [N s/m]
-  TyreLaw law = TyreLaw::vertical;
-  Vec3 axis = Vec3::UnitY();  ///< of the wheel
-  std::string road;
-};
-
 /// The rates that the rotational dampers of a bushing are laws of: those of the components of the
 /// rotation vector, or the components of the angular velocity.
 enum class RotationRate { rotation_vector, angular_velocity };
@@ -108,20 +92,6 @@ struct AppliedLoad {
 };
 struct AppliedForce : AppliedLoad {};
 struct AppliedTorque : AppliedLoad {};
-
-/// Drag, side force and lift of the air on a body, at one point. With the air speed u = wind - v of
-/// the point, along e1 = forwards, e2, e3 = up, which turn with the body: F = density/2 area |u|
-/// (drag u1 e1 + side u2 e2 + lift |u| e3).
-struct AerodynamicLoad {
-  AttachmentDescription at;
-  Vec3 axis = Vec3::UnitZ(), axis_2 = Vec3::UnitX();  ///< up, forwards
-  double area = 0.0;                                  ///< [m^2]
-  double drag = 0.0, side = 0.0;                      ///< coefficients [-]
-  double lift = 0.0;                                  ///< the same; negative: downforce
-  double density = 1.2;                               ///< [kg/m^3]
-  std::optional<SignalDescription> wind;              ///< speed of the air [m/s]; absent: 0
-  Vec3 wind_direction = Vec3::UnitX();                ///< where it blows to, in the world
-};
 
 /// A shaft (`to`) in a housing (`from`), which carries the axes of a bushing; the shaft may turn
 /// about e3 without end. Matrices are 6 x 6 - three displacements, two tilts, the spin - or 2 x 2

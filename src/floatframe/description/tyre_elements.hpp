@@ -1,6 +1,6 @@
 #pragma once
-// The structs of the tyres that roll: with slip, in both directions, on a surface. What they share
-// is a RollingTyre; docs/theory.md has their equations.
+// The structs of the tyres, and of the air. Those that roll, with slip, in both directions, on a
+// surface, share a RollingTyre; docs/theory.md has their equations.
 #include <optional>
 #include <string>
 
@@ -8,6 +8,22 @@
 #include "floatframe/math/types.hpp"
 
 namespace floatframe {
+
+enum class TyreLaw { vertical, radial };
+
+/// Penalty tyre on a road profile. With h = z_c - z_road(x_c) the height of the wheel centre above
+/// the road below it, hdot its rate (zdot_c - s xdot_c on a road of slope s) and
+/// f = max(0, k (R - h) - c hdot) while h < R: vertical: f upwards at the centre; radial:
+/// f / sqrt(1 + s^2) along the road normal, at the contact point.
+struct Tyre {
+  AttachmentDescription centre;
+  double radius = 0.0;     ///< unloaded [m]
+  double stiffness = 0.0;  ///< [N/m]
+  double damping = 0.0;    ///< [N s/m]
+  TyreLaw law = TyreLaw::vertical;
+  Vec3 axis = Vec3::UnitY();  ///< of the wheel
+  std::string road;
+};
 
 /// The side of the vehicle: data of the other side are mirrored.
 enum class TyreSide { left, right };
@@ -49,21 +65,7 @@ struct LinearTyre : RollingTyre {
   double rolling_resistance = 0.0;                ///< torque over load and radius
 };
 
-/// How the Magic Formula takes slip angle and camber: in rad, as the manual of MF-Tyre 6.x, or as
-/// tan(alpha) and sin(gamma), as Pacejka's book.
-enum class SlipForm { manual, book };
-
-/// Magic Formula 5.2, 6.1 or 6.2 with the coefficients of a tyre property file.
-struct MagicFormulaTyre : RollingTyre {
-  std::string file;  ///< path of a .tir; of a built element: the hash of its content
-  SlipForm form = SlipForm::manual;
-  std::optional<double> pressure;  ///< [Pa]; absent: that of the file
-  bool limits = false;             ///< slips, camber and load within the ranges of the file
-  double friction = 1.0;           ///< factor of the scale factors LMUX and LMUY
-  double stiffness_factor = 1.0;   ///< factor of LKX and LKY
-};
-
-/// TMeasy: values at the nominal load and at twice, in rows.
+/// TMeasy (tyres/tmeasy.hpp): values at the nominal load and at twice, in rows.
 struct TmeasyTyre : RollingTyre {
   double radius = 0.0;             ///< unloaded [m]
   double nominal_load = 0.0;       ///< [N]
@@ -90,6 +92,20 @@ struct CalspanTyre : RollingTyre {
   double load_limit = 1.0;             ///< Omega_T: stiffnesses are held above this x A2
   double skid_number = 1.0;            ///< SN
   std::optional<double> relaxation_y;  ///< length [m]; absent: slips follow at once
+};
+
+/// Drag, side force and lift of the air on a body, at one point. With the air speed u = wind - v of
+/// the point, along e1 = forwards, e2, e3 = up, which turn with the body: F = density/2 area |u|
+/// (drag u1 e1 + side u2 e2 + lift |u| e3).
+struct AerodynamicLoad {
+  AttachmentDescription at;
+  Vec3 axis = Vec3::UnitZ(), axis_2 = Vec3::UnitX();  ///< up, forwards
+  double area = 0.0;                                  ///< [m^2]
+  double drag = 0.0, side = 0.0;                      ///< coefficients [-]
+  double lift = 0.0;                                  ///< the same; negative: downforce
+  double density = 1.2;                               ///< [kg/m^3]
+  std::optional<SignalDescription> wind;              ///< speed of the air [m/s]; absent: 0
+  Vec3 wind_direction = Vec3::UnitX();                ///< where it blows to, in the world
 };
 
 }  // namespace floatframe
