@@ -63,8 +63,9 @@ TEST(JournalBearing, AShaftThatIsDrawnBesideItsBushIsNoted) {
   const auto notes = [](const std::string& place) {
     const Model model = model_of(
         shaft_in_bush(place, "radius: 0.02, clearance: 0.001, stiffness: 1.0e6", "step: 1.0e-4"));
+    const ModelCounts counts = check(model);
     std::string all;
-    for (const std::string& note : check(model).start.notes) all += note + "\n";
+    for (const std::string& note : counts.start.notes) all += note + "\n";
     return all;
   };
   EXPECT_EQ(notes("position: [0, 0.0011, 0]").find("bush"), std::string::npos);
