@@ -1,6 +1,6 @@
 #pragma once
-// Weights of four neighbours f_-1, f_0, f_1, f_2 for a value between f_0 and f_1: the cubic with the
-// values f_0, f_1 and the slopes of the parabolas through f_-1, f_0, f_1 and f_0, f_1, f_2
+// Weights of four neighbours f_-1, f_0, f_1, f_2 for a value between f_0 and f_1: the cubic with
+// the values f_0, f_1 and the slopes of the parabolas through f_-1, f_0, f_1 and f_0, f_1, f_2
 // (Catmull-Rom where steps are equal), so that the function is continuous with its slope.
 #include <array>
 

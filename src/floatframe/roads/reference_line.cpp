@@ -104,7 +104,9 @@ std::size_t ReferenceLine::nearest(double x, double y) const noexcept {
 }
 
 ReferenceLine::Node ReferenceLine::chord(std::size_t k) const noexcept {
-  const Node &a = nodes_[k > 0 ? k - 1 : 0], &b = nodes_[std::min(k + 1, steps_)];
+  const bool seam = closed_ && (k == 0 || k == steps_);
+  const Node& a = nodes_[seam ? steps_ - 1 : k > 0 ? k - 1 : 0];
+  const Node& b = nodes_[seam ? 1 : std::min(k + 1, steps_)];
   return {b.x - a.x, b.y - a.y};
 }
 

@@ -1,14 +1,14 @@
 #pragma once
 // The reference line of a curved regular grid (OpenCRG): a polygon of equal steps du, from the node
 // P_0 at u_0 on. A place lies u along and v to the left of it. With the chords t_i = P_{i+1} -
-// P_{i-1} (at an end that of the only step there), interval i reaches from the normal of t_i through
-// P_i to that of t_{i+1} through P_{i+1}; in it, with e = P_{i+1} - P_i and the place P,
+// P_{i-1} (at an end that of the only step there), interval i reaches from the normal of t_i
+// through P_i to that of t_{i+1} through P_{i+1}; in it, with e = P_{i+1} - P_i and the place P,
 //   a = t_i.(P - P_i) / t_i.e,   b = t_{i+1}.(P_{i+1} - P) / t_{i+1}.e
 //   u = u_0 + (i + a / (a + b)) du,   v = e x (P - P_i) / |e|                               (1)
-// Before and behind the ends it goes on straight. This is the definition of OpenCRG 1.2, not the
-// foot of a perpendicular; u is continuous everywhere, its slope has a small jump at the normals.
-// The place is looked for from the nearest node, which a tree of boxes finds: what was asked before
-// does not matter.
+// Before and behind the ends it goes on straight; a closed line has the chord P_1 - P_{n-1} there.
+// This is the definition of OpenCRG 1.2, not the foot of a perpendicular; u is continuous
+// everywhere, its slope has a small jump at the normals. The place is looked for from the nearest
+// node, which a tree of boxes finds: what was asked before does not matter.
 #include <array>
 #include <cstddef>
 #include <vector>
