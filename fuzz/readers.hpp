@@ -29,6 +29,7 @@
 #include "floatframe/formats/text/text_source.hpp"
 #include "floatframe/history/history_blocks.hpp"
 #include "floatframe/history/state_history.hpp"
+#include "floatframe/roads/crg_file.hpp"
 #include "packets.hpp"
 
 namespace floatframe::fuzz {
@@ -208,6 +209,12 @@ inline void history(std::string_view bytes) {
   read_all(StateHistory::of_bytes(std::move(file), "fuzz.ffr"));
 }
 
+/// Read, and asked for heights within and beside it.
+inline void crg(std::string_view bytes) {
+  const CrgRoad road = read_crg(bytes, "fuzz");
+  for (int k = -3; k < 4; ++k) crg_surface(road, 0.7 * k, 0.3 * k * k - 1.0);
+}
+
 struct Reader {
   const char* name;
   void (*read)(std::string_view bytes);
@@ -231,6 +238,7 @@ inline constexpr Reader readers[] = {
     {"geometry", geometry},
     {"udp", udp},
     {"history", history},
+    {"crg", crg},
 };
 
 /// Reads and forgets. Everything but an InputError is an error of the reader.

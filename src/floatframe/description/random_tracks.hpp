@@ -7,9 +7,9 @@
 //                the modified Bessel function of the second kind
 //   exponential  g = exp(-mu n w)
 // Each wave of the left track has one on the right of the same amplitude, shifted by arccos g(n),
-// to one side and to the other in turn from wave to wave. So the spectra are exact on both tracks, the
-// real part of the cross spectrum is G g wave by wave, and its imaginary part vanishes over any two
-// neighbours: mean squares of linear responses are those of the spectrum.
+// to one side and to the other in turn from wave to wave. So the spectra are exact on both tracks,
+// the real part of the cross spectrum is G g wave by wave, and its imaginary part vanishes over any
+// two neighbours: mean squares of linear responses are those of the spectrum.
 #include "floatframe/description/road_spectrum.hpp"
 #include "floatframe/roads/two_tracks.hpp"
 
