@@ -29,6 +29,7 @@
 #include "floatframe/formats/text/text_source.hpp"
 #include "floatframe/history/history_blocks.hpp"
 #include "floatframe/history/state_history.hpp"
+#include "floatframe/roads/crg_file.hpp"
 #include "floatframe/tyres/magic_tyre.hpp"
 #include "packets.hpp"
 
@@ -211,6 +212,12 @@ inline void history(std::string_view bytes) {
   read_all(StateHistory::of_bytes(std::move(file), "fuzz.ffr"));
 }
 
+/// Read, and asked for heights within and beside it.
+inline void crg(std::string_view bytes) {
+  const CrgRoad road = read_crg(bytes, "fuzz");
+  for (int k = -3; k < 4; ++k) crg_surface(road, 0.7 * k, 0.3 * k * k - 1.0);
+}
+
 struct Reader {
   const char* name;
   void (*read)(std::string_view bytes);
@@ -235,6 +242,7 @@ inline constexpr Reader readers[] = {
     {"udp", udp},
     {"history", history},
     {"tir", tir},
+    {"crg", crg},
 };
 
 /// Reads and forgets. Everything but an InputError is an error of the reader.

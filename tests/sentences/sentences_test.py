@@ -18,7 +18,7 @@ import tempfile
 HERE = pathlib.Path(__file__).resolve().parent
 TESTS = HERE.parent
 # From what knows nothing of the others to what knows most: a sentence belongs to the first.
-ROOMS = ["core", "math", "tyres", "yaml", "fe", "inertia", "body", "reduction", "formats", "decks", "parts", "model", "model_file",
+ROOMS = ["core", "math", "tyres", "yaml", "roads", "fe", "inertia", "body", "reduction", "formats", "decks", "parts", "model", "model_file",
          "formulation", "loops", "start", "reactions", "stepping", "run", "linear", "rotors", "advice", "history", "analyses", "results", "page", "export", "realtime", "sweep", "apps", "bench"]
 
 MOST_REPEATED = 14

@@ -44,6 +44,15 @@ std::string not_opened(int error) {
   return std::string("the file cannot be opened (") + std::strerror(error) + ")";
 }
 
+/// Empty if the file is open and a regular one.
+std::string why_not_regular(int number, struct stat& status) {
+  if (number < 0) return not_opened(errno);
+  if (::fstat(number, &status) != 0) return "the file cannot be read";
+  if (S_ISDIR(status.st_mode)) return "this is a folder, not a file";
+  if (!S_ISREG(status.st_mode)) return "this is not a regular file";
+  return {};
+}
+
 /// Reads the first `most` bytes of a regular file; returns empty or the reason. With `whole` a
 /// larger file is an error.
 std::string read_up_to(const std::filesystem::path& path, std::uint64_t most, bool whole,
@@ -52,11 +61,8 @@ std::string read_up_to(const std::filesystem::path& path, std::uint64_t most, bo
   // The system would truncate the name there.
   if (path.native().find('\0') != std::string::npos) return "the name of the file holds a NUL";
   const OpenFile file(path);
-  if (file.number() < 0) return not_opened(errno);
   struct stat status {};
-  if (::fstat(file.number(), &status) != 0) return "the file cannot be read";
-  if (S_ISDIR(status.st_mode)) return "this is a folder, not a file";
-  if (!S_ISREG(status.st_mode)) return "this is not a regular file";
+  if (const std::string why = why_not_regular(file.number(), status); !why.empty()) return why;
   const std::string too_large =
       "the file is larger than " + size_text(most) + ", which is not read";
   if (whole && status.st_size > 0 && static_cast<std::uint64_t>(status.st_size) > most)
@@ -99,6 +105,31 @@ std::string read_regular_file(const std::filesystem::path& file, std::uint64_t l
 std::string read_regular_beginning(const std::filesystem::path& file, std::size_t bytes,
                                    std::string& content) {
   return read_up_to(file, bytes, false, content);
+}
+
+RegularFile::RegularFile(const std::filesystem::path& file) : name_(file.string()) {
+  struct stat status {};
+  const bool whole = file.native().find('\0') == std::string::npos;
+  if (whole) number_ = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
+  const std::string why =
+      whole ? why_not_regular(number_, status) : "the name of the file holds a NUL";
+  if (!why.empty()) {
+    if (number_ >= 0) ::close(number_);
+    throw InputError(ErrorCode::unreadable, {name_, 0, 0}, why);
+  }
+  size_ = static_cast<std::uint64_t>(std::max<off_t>(status.st_size, 0));
+}
+
+RegularFile::~RegularFile() { ::close(number_); }
+
+std::size_t RegularFile::read(char* to, std::size_t count) {
+  for (;;) {
+    const ssize_t got = ::read(number_, to, count);
+    if (got >= 0) return static_cast<std::size_t>(got);
+    if (errno != EINTR)
+      throw InputError(ErrorCode::unreadable, {name_, 0, 0},
+                       std::string("the file cannot be read (") + std::strerror(errno) + ")");
+  }
 }
 
 std::string regular_file(const std::filesystem::path& file, std::uint64_t largest) {

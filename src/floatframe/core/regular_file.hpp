@@ -26,4 +26,22 @@ std::string read_regular_beginning(const std::filesystem::path& file, std::size_
 std::string regular_file(const std::filesystem::path& file,
                          std::uint64_t largest = largest_file_read);
 
+/// A regular file of any size that is read piece by piece. Throws InputError with its name.
+class RegularFile {
+ public:
+  explicit RegularFile(const std::filesystem::path& file);
+  ~RegularFile();
+  RegularFile(const RegularFile&) = delete;
+  RegularFile& operator=(const RegularFile&) = delete;
+  /// When it was opened [byte].
+  std::uint64_t size() const noexcept { return size_; }
+  /// The next bytes, at most `count`; 0 at the end.
+  std::size_t read(char* to, std::size_t count);
+
+ private:
+  std::string name_;
+  int number_ = -1;
+  std::uint64_t size_ = 0;
+};
+
 }  // namespace floatframe

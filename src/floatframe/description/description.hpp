@@ -24,6 +24,7 @@
 #include "floatframe/math/pose.hpp"
 #include "floatframe/math/types.hpp"
 #include "floatframe/reduction/reduction_options.hpp"
+#include "floatframe/roads/road_surface.hpp"
 
 namespace floatframe {
 
@@ -159,11 +160,14 @@ struct ElementDescription {
 struct CosineBump {
   double start = 0.0, length = 1.0, height = 0.0;  ///< [m]
 };
+/// Beside the profile, heights over x and y, which are added, and friction: `surface`, null for a
+/// road of a profile alone.
 struct RoadDescription {
   std::string name;
   PiecewisePolynomial pieces;
   std::vector<CosineBump> bumps;
   Origin origin;
+  std::shared_ptr<const RoadSurface> surface = nullptr;
 };
 
 // -------------------------------------------------------------------------------------------

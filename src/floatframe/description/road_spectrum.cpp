@@ -18,28 +18,8 @@ constexpr int wave_count = 1000;
 constexpr double spacing = 0.035;  ///< a tenth of the shortest wave [m]
 constexpr double ramp = 10.0;      ///< [m]
 
-struct Wave {
-  double amplitude, k, phase;  ///< [m], [rad/m], [rad]
-};
-
 /// In [0, 1): the same bits everywhere, unlike the distributions of the standard library.
 double uniform(std::mt19937_64& engine) { return static_cast<double>(engine() >> 11) * 0x1.0p-53; }
-
-std::vector<Wave> waves_of(const RoadSpectrum& spectrum) {
-  std::mt19937_64 engine(static_cast<std::uint64_t>(spectrum.seed));
-  const double ratio = std::pow(road_classes::high / road_classes::low, 1.0 / wave_count);
-  std::vector<Wave> waves;
-  double low = road_classes::low;
-  for (int i = 0; i < wave_count; ++i) {
-    const double high = low * ratio;
-    const double n = low * std::pow(ratio, uniform(engine));
-    const double turn = 2.0 * std::numbers::pi;
-    waves.push_back(
-        {std::sqrt(2.0 * road_variance(spectrum, low, high)), turn * n, turn * uniform(engine)});
-    low = high;
-  }
-  return waves;
-}
 
 /// Amplitude factor of the road at a distance from the nearer end, with its slope.
 std::pair<double, double> share(double distance, double over) {
@@ -56,7 +36,23 @@ double road_variance(const RoadSpectrum& spectrum, double from, double to) noexc
          std::max(0.0, 1.0 / a - 1.0 / b);
 }
 
-PiecewisePolynomial random_road(const RoadSpectrum& spectrum) {
+std::vector<RoadWave> road_waves(const RoadSpectrum& spectrum) {
+  std::mt19937_64 engine(static_cast<std::uint64_t>(spectrum.seed));
+  const double ratio = std::pow(road_classes::high / road_classes::low, 1.0 / wave_count);
+  std::vector<RoadWave> waves;
+  double low = road_classes::low;
+  for (int i = 0; i < wave_count; ++i) {
+    const double high = low * ratio;
+    const double n = low * std::pow(ratio, uniform(engine));
+    const double turn = 2.0 * std::numbers::pi;
+    waves.push_back(
+        {std::sqrt(2.0 * road_variance(spectrum, low, high)), turn * n, turn * uniform(engine)});
+    low = high;
+  }
+  return waves;
+}
+
+void check_spectrum(const RoadSpectrum& spectrum) {
   if (const auto complaint = rules::random_road_length.complaint(spectrum.length))
     throw InputError(ErrorCode::out_of_range, "random road: length: " + *complaint);
   if (const auto complaint = non_negative_number("m3").complaint(spectrum.roughness))
@@ -64,11 +60,14 @@ PiecewisePolynomial random_road(const RoadSpectrum& spectrum) {
   if (!std::isfinite(spectrum.start))
     throw InputError(ErrorCode::not_finite,
                      "random road: start: found a number that is not finite");
+}
 
+PiecewisePolynomial road_of_waves(const RoadSpectrum& spectrum,
+                                  const std::vector<RoadWave>& waves) {
   const auto count = static_cast<std::size_t>(std::ceil(spectrum.length / spacing));
   const double h = spectrum.length / static_cast<double>(count);
   std::vector<double> z(count + 1, 0.0), slope(count + 1, 0.0);
-  for (const Wave& w : waves_of(spectrum)) {
+  for (const RoadWave& w : waves) {
     // cos and sin of k i h + phase by recurrence, restarted every 256 points: rounding below 1e-13.
     const double c = std::cos(w.k * h), s = std::sin(w.k * h);
     double cosine = 0.0, sine = 0.0;
@@ -105,6 +104,11 @@ PiecewisePolynomial random_road(const RoadSpectrum& spectrum) {
   }
   pieces.push_back({breaks.back(), {0.0}});
   return {std::move(breaks), std::move(pieces)};
+}
+
+PiecewisePolynomial random_road(const RoadSpectrum& spectrum) {
+  check_spectrum(spectrum);
+  return road_of_waves(spectrum, road_waves(spectrum));
 }
 
 }  // namespace floatframe

@@ -4,6 +4,7 @@
 // with the roughness G0 = G(n0) of a class: A 16e-6, B 64e-6, ..., H 262144e-6 m3, four times as
 // much from class to class (the geometric means of the standard).
 #include <cstdint>
+#include <vector>
 
 #include "floatframe/math/piecewise_polynomial.hpp"
 
@@ -25,6 +26,17 @@ struct RoadSpectrum {
 
 /// int G dn between two wave numbers [m2]; G is 0 outside the range.
 double road_variance(const RoadSpectrum& spectrum, double from, double to) noexcept;
+
+/// amplitude cos(k (x - start) + phase): [m], [rad/m], [rad].
+struct RoadWave {
+  double amplitude = 0.0, k = 0.0, phase = 0.0;
+};
+/// The waves of `random_road`, the longest first.
+std::vector<RoadWave> road_waves(const RoadSpectrum& spectrum);
+/// Throws InputError as `random_road`.
+void check_spectrum(const RoadSpectrum& spectrum);
+/// The sum of waves on the length of the spectrum, as `random_road` makes it.
+PiecewisePolynomial road_of_waves(const RoadSpectrum& spectrum, const std::vector<RoadWave>& waves);
 
 /// A sum of 1000 waves with random phases, one in each of as many bands of equal ratio, with the
 /// variance of its band; the wave number within the band is random, so that the road is not

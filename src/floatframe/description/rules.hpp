@@ -55,6 +55,9 @@ inline constexpr NumberRule tyre_damping = non_negative_number("N s/m");
 inline constexpr NumberRule bump_length = positive_number("m");
 inline constexpr NumberRule random_road_length = {"a length between 1 and 10000", "m", 1.0,
                                                   10000.0};
+inline constexpr NumberRule track_width = positive_number("m");
+inline constexpr NumberRule track_decay = non_negative_number("");
+inline constexpr NumberRule road_friction = non_negative_number("");
 inline constexpr std::size_t most_coefficients = 20;
 inline constexpr const char* coefficients = "a list of 1 to 20 coefficients [c0, c1, ...]";
 

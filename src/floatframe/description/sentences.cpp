@@ -161,6 +161,16 @@ std::string ground_as_child() {
 }
 std::string child_is_parent() { return "found the same body as the parent, expected another"; }
 
+std::string road_with_width(const std::string& road, const std::string& type) {
+  return "found '" + road + "', a road with width, expected one of a profile alone for '" + type +
+         "', or another type of tyre";
+}
+
+std::string patch_range(double low, double high) {
+  return "found " + number_text(low) + " to " + number_text(high) +
+         ", expected two ascending numbers [from, to] [m]";
+}
+
 std::string element_of_another_list(const std::string& type) {
   return "found " + type +
          ", expected rods, constraints, couplings and controllers in the lists of these, motions "

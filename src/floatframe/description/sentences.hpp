@@ -52,6 +52,9 @@ Complaint second_axis(const Vec3& axis, const Vec3& axis_2);
 std::string ground_as_child();
 std::string child_is_parent();
 std::string both_ends_on(const std::string& body);
+/// An element that feels a profile alone, on a road with heights over x and y.
+std::string road_with_width(const std::string& road, const std::string& type);
+std::string patch_range(double low, double high);
 std::string element_of_another_list(const std::string& type);
 /// A signal names a second element; `first`: the key of the other one.
 std::string one_source(SignalSource first);

@@ -9,7 +9,8 @@
 namespace floatframe {
 
 void ModelBuilder::roads() {
-  for (const RoadDescription& r : d.roads) model.roads.push_back({r.name, r.pieces, r.bumps});
+  for (const RoadDescription& r : d.roads)
+    model.roads.push_back({r.name, r.pieces, r.bumps, r.surface});
 }
 
 void ModelBuilder::inputs() {

@@ -153,6 +153,7 @@ struct ElementKind {
   bool on_line = false;  ///< its second marker slides along z of the first, a straight line
   bool contact = false;  ///< with a restitution at the speed of a touch, which is its first kept
                          ///< number, and the key `least_speed`
+  bool profile_only = false;  ///< of roads it feels the profile alone: none with width
   /// `lifted_by`: the last signal, which belongs to no key, lifts it.
   const char* lifted = nullptr;
   /// Why its force is not a number there; for messages.

@@ -65,6 +65,8 @@ struct Road {
   std::string name;
   PiecewisePolynomial pieces;
   std::vector<CosineBump> bumps;
+  /// Heights over x and y, and friction; null: a profile alone.
+  std::shared_ptr<const RoadSurface> surface = nullptr;
 };
 
 /// A signal port: a function of time plus, with `input` >= 0, the value of that input.

@@ -60,8 +60,29 @@ class ModelHash {
     all(start, length, height);
   }
   void add(const Road& r) {
-    const auto& [name, pieces, bumps] = r;
+    const auto& [name, pieces, bumps, surface] = r;
     all(pieces, bumps);
+    if (surface) add(*surface);
+  }
+  void add(const RoadSurface& s) {
+    const auto& [height, grid, crg, tracks, friction, patches] = s;
+    all(height, grid != nullptr, crg != nullptr, tracks != nullptr, friction);
+    if (grid) add(*grid);
+    if (crg) add(*crg);
+    if (tracks) all(tracks->left, tracks->right, tracks->width, tracks->centre);
+    for (const auto& [x0, x1, y0, y1, factor] : patches) all(x0, x1, y0, y1, factor);
+  }
+  void add(const HeightGrid& g) {
+    const auto& [x, y, interpolation, outside, z, zx, zy, zxy] = g;
+    all(x, y, interpolation, outside, z);  // the slopes follow from these
+  }
+  void add(const CrgRoad& c) {
+    const auto& [line, v, uniform, singles, doubles, heights, banking, edge_u, edge_v,
+                 interpolation, notes] = c;
+    all(line.first(), line.step(), v, doubles, heights, banking, interpolation);
+    for (const float z : singles) add(static_cast<double>(z));
+    for (const CrgEdge& edge : {edge_u, edge_v}) all(edge.mode, edge.offset);
+    for (std::size_t k = 0; k < c.rows(); ++k) all(line.node(k).x, line.node(k).y);
   }
   void add(const Marker& m) {
     const auto& [body, node, X_NM, rotates, path, guide] = m;

@@ -33,12 +33,13 @@ RoadPoint road_at(const Road& road, std::size_t stretch, double x) noexcept {
   return with_bumps(road, road.pieces.stretch_value(stretch, x), x);
 }
 
-SurfacePoint surface_at(const Road& road, double x, double) noexcept {
+SurfacePoint surface_at(const Road& road, double x, double y) noexcept {
   const RoadPoint p = road_at(road, x);
   SurfacePoint s;
   s.z = p.z;
   s.zx = p.slope;
   s.zxx = p.curvature;
+  if (road.surface) add_surface(*road.surface, x, y, s);
   return s;
 }
 

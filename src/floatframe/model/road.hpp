@@ -1,5 +1,6 @@
 #pragma once
-// Road profiles: height over x, a piecewise polynomial plus cosine bumps.
+// Roads: profiles, height over x, a piecewise polynomial plus cosine bumps; and surfaces over x and
+// y, which are added (roads/road_surface.hpp).
 #include "floatframe/model/model.hpp"
 #include "floatframe/roads/surface_point.hpp"
 

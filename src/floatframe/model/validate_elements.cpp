@@ -1,11 +1,14 @@
 // Force elements, by the tables of their keys and the checks of their types, and roads.
 #include <algorithm>
+#include <cmath>
+#include <tuple>
 
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/description/rules.hpp"
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/validate_model.hpp"
+#include "floatframe/roads/height_formula.hpp"
 
 namespace floatframe::validation {
 
@@ -38,7 +41,7 @@ struct ElementValidation {
         entity.reference(key.name, "joint", std::get<std::string>(*x), names.joints);
         break;
       case K::road:
-        entity.reference(key.name, "road", std::get<std::string>(*x), names.roads);
+        road(key, std::get<std::string>(*x));
         break;
       case K::direction:
       case K::vector:
@@ -98,6 +101,15 @@ struct ElementValidation {
     if (!f)
       entity.error(ErrorCode::unsupported, key.name,
                    sentences::function_in_file("'" + f.identity() + "'"));
+  }
+
+  /// A kind that feels the profile alone does not roll on a road with width.
+  void road(const ElementKey& key, const std::string& of) const {
+    if (!entity.reference(key.name, "road", of, names.roads)) return;
+    const RoadDescription& r = d.roads[*names.roads.find(of)];
+    const char* type = element_type_name(force.type());
+    if (element_kind(force.type()).profile_only && r.surface && r.surface->wide())
+      entity.error(ErrorCode::unsupported, key.name, sentences::road_with_width(of, type));
   }
 
   /// Of a shape: of its variable alone.
@@ -180,6 +192,21 @@ struct ElementValidation {
   }
 };
 
+void road_surface(const RoadSurface& surface, const Entity& entity) {
+  if (surface.height)
+    if (const std::string why = height_formula_complaint(*surface.height); !why.empty())
+      entity.error(ErrorCode::not_found, "height", why);
+  entity.number("friction", surface.friction, rules::road_friction);
+  for (std::size_t i = 0; i < surface.patches.size(); ++i) {
+    const FrictionPatch& p = surface.patches[i];
+    const std::string patch = "patches[" + std::to_string(i + 1) + "].";
+    entity.number(patch + "friction", p.friction, rules::road_friction);
+    for (const auto& [key, low, high] : {std::tuple("x", p.x0, p.x1), std::tuple("y", p.y0, p.y1)})
+      if (!(low < high) || !std::isfinite(high - low))
+        entity.error(ErrorCode::wrong_value, patch + key, sentences::patch_range(low, high));
+  }
+}
+
 }  // namespace
 
 void elements(const ModelDescription& d, const Names& names, ErrorList& errors) {
@@ -213,6 +240,7 @@ void roads(const ModelDescription& d, ErrorList& errors) {
       entity.number(bump + "length", r.bumps[i].length, rules::bump_length);
       entity.number(bump + "height", r.bumps[i].height, any_number("m"));
     }
+    if (r.surface) road_surface(*r.surface, entity);
   }
 }
 

@@ -1,6 +1,7 @@
 // Formulas of model files: their parameters become numbers, their names those of the whole model.
 // The tables that they use.
 #include <algorithm>
+#include <string_view>
 
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/formulas/function_words.hpp"
@@ -11,10 +12,13 @@
 namespace floatframe {
 namespace {
 
+constexpr std::string_view law_variables = "xv";
+
 /// Parameters and names of one file.
 class Binder {
  public:
-  explicit Binder(const ModelInstance& self, bool of_law) : self_(self), of_law_(of_law) {}
+  /// `own`: the variables of a law or height, a letter each; empty: the formula is of the model.
+  Binder(const ModelInstance& self, std::string_view own) : self_(self), own_(own) {}
 
   void bind(SyntaxNode& node) const {
     using Kind = SyntaxNode::Kind;
@@ -40,14 +44,15 @@ class Binder {
       return;
     }
     const std::string& word = node.word;
-    if (word == "t" || word == "time" || constant_value(word) || of_law_) return;
+    if (word == "t" || word == "time" || constant_value(word) || !own_.empty()) return;
     const auto input = self_.resolve(EntityKind::input, word);
     node.word = input ? *input : self_.prefix + word;
   }
   /// What a parameter of this name would hide; null: nothing.
   const char* also(const std::string& word) const {
     if (word == "t" || word == "time") return "the time";
-    if (of_law_) return word == "x" || word == "v" ? "a variable of the law" : nullptr;
+    if (!own_.empty())
+      return word.size() == 1 && own_.find(word) != own_.npos ? "a variable of the law" : nullptr;
     return self_.resolve(EntityKind::input, word) ? "an input" : nullptr;
   }
   /// The name of the entity in the first argument.
@@ -68,7 +73,7 @@ class Binder {
   }
 
   const ModelInstance& self_;
-  bool of_law_;
+  std::string_view own_;
 };
 
 /// Ascending numbers of a grid.
@@ -113,12 +118,12 @@ std::shared_ptr<const GridTable> read_grid(const YamlValue& value) {
   return std::make_shared<const GridTable>(std::move(grid));
 }
 
-SharedFormula compiled(const ModelInstance& self, const YamlValue& value, bool of_law) {
+SharedFormula compiled(const ModelInstance& self, const YamlValue& value, std::string_view own) {
   const auto text = value.parameter();
   if (!text) return nullptr;
   try {
     SyntaxNode tree = parse_expression(value_text(*text));
-    Binder(self, of_law).bind(tree);
+    Binder(self, own).bind(tree);
     const Placement& x = self.world;
     return compile_formula(tree, self.tables, {x.P.diagonal(), x.t - x.P * self.shift});
   } catch (const ExpressionError& e) {
@@ -130,11 +135,15 @@ SharedFormula compiled(const ModelInstance& self, const YamlValue& value, bool o
 }  // namespace
 
 SharedFormula read_formula(const ModelInstance& self, const YamlValue& value) {
-  return compiled(self, value, false);
+  return compiled(self, value, "");
 }
 
 SharedFormula read_shape(const ModelInstance& self, const YamlValue& value) {
-  return compiled(self, value, true);
+  return compiled(self, value, law_variables);
+}
+
+SharedFormula read_height(const ModelInstance& self, const YamlValue& value) {
+  return compiled(self, value, "xy");
 }
 
 std::optional<ForceFunction> read_force_function(const ModelInstance& self,
@@ -147,7 +156,7 @@ std::optional<ForceFunction> read_force_function(const ModelInstance& self,
     return std::nullopt;
   }
   section->finish();
-  const SharedFormula f = compiled(self, *text, true);
+  const SharedFormula f = compiled(self, *text, law_variables);
   if (!f) return std::nullopt;
   try {
     return ForceFunction::of(f);

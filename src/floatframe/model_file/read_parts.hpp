@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "floatframe/description/road_spectrum.hpp"
 #include "floatframe/description/validate.hpp"
 #include "floatframe/math/piecewise_build.hpp"
 #include "floatframe/model_file/model_instance.hpp"
@@ -46,6 +47,10 @@ void read_constraints(const ModelInstance& self, ReadModel& model);
 void read_couplings(const ModelInstance& self, ReadModel& model);
 void read_controllers(const ModelInstance& self, ReadModel& model);
 void read_roads(const ModelInstance& self, ReadModel& model);
+/// class or roughness, start, length, seed.
+RoadSpectrum read_spectrum_keys(YamlSection& section);
+/// Heights over x and y, and friction, of a road; null: it has none of these keys.
+std::shared_ptr<const RoadSurface> read_surface(const ModelInstance& self, YamlSection& road);
 void read_inputs(const ModelInstance& self, ReadModel& model);
 /// Of the model file itself; after all that it names.
 void read_vehicle(const ModelInstance& self, ReadModel& model);
@@ -168,6 +173,8 @@ PiecewisePolynomial read_law(const YamlValue& value, double free, const LawUnits
 SharedFormula read_formula(const ModelInstance& self, const YamlValue& value);
 /// A formula of one variable: names are not those of the model.
 SharedFormula read_shape(const ModelInstance& self, const YamlValue& value);
+/// The same of x and y.
+SharedFormula read_height(const ModelInstance& self, const YamlValue& value);
 /// {formula: ...} of x, v and t, or the name of a function that a program is to give.
 std::optional<ForceFunction> read_force_function(const ModelInstance& self, const YamlValue& value);
 /// The section `tables`.

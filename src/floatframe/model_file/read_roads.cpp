@@ -37,28 +37,33 @@ PiecewisePolynomial read_profile(const YamlValue& value) {
 std::optional<RoadSpectrum> read_spectrum(const YamlValue& value) {
   auto s = value.section("a map with class (or roughness), length and seed");
   if (!s) return std::nullopt;
-  RoadSpectrum spectrum;
   const std::size_t before = value.context().errors->size();
-  const auto word = s->get("class");
-  const auto number = s->get("roughness");
-  if (word && number) {
-    number->error(ErrorCode::exclusive, "excludes 'class'; remove one of them");
-  } else if (number) {
-    spectrum.roughness = number->number(non_negative_number("m3")).value_or(0.0);
-  } else if (const auto found = s->require("class")) {
-    const auto place = found->word(road_classes::names);
-    if (place) spectrum.roughness = road_classes::roughness(static_cast<int>(*place));
-  }
-  spectrum.start = s->number("start", any_number("m"), 0.0);
-  spectrum.length = s->required_number("length", rules::random_road_length, 100.0);
-  if (const auto seed = s->get("seed"))
-    spectrum.seed = seed->integer(0, std::numeric_limits<int>::max(), "a whole number").value_or(1);
+  const RoadSpectrum spectrum = read_spectrum_keys(*s);
   s->finish();
   if (value.context().errors->size() != before) return std::nullopt;
   return spectrum;
 }
 
 }  // namespace
+
+RoadSpectrum read_spectrum_keys(YamlSection& s) {
+  RoadSpectrum spectrum;
+  const auto word = s.get("class");
+  const auto number = s.get("roughness");
+  if (word && number) {
+    number->error(ErrorCode::exclusive, "excludes 'class'; remove one of them");
+  } else if (number) {
+    spectrum.roughness = number->number(non_negative_number("m3")).value_or(0.0);
+  } else if (const auto found = s.require("class")) {
+    const auto place = found->word(road_classes::names);
+    if (place) spectrum.roughness = road_classes::roughness(static_cast<int>(*place));
+  }
+  spectrum.start = s.number("start", any_number("m"), 0.0);
+  spectrum.length = s.required_number("length", rules::random_road_length, 100.0);
+  if (const auto seed = s.get("seed"))
+    spectrum.seed = seed->integer(0, std::numeric_limits<int>::max(), "a whole number").value_or(1);
+  return spectrum;
+}
 
 void read_roads(const ModelInstance& self, ReadModel& model) {
   for (auto& [name, s] : active_entities(self, EntityKind::road)) {
@@ -79,6 +84,7 @@ void read_roads(const ModelInstance& self, ReadModel& model) {
         b->finish();
         r.bumps.push_back(bump);
       }
+    r.surface = read_surface(self, s);
     s.finish();
     model.description.roads.push_back(std::move(r));
   }

@@ -333,13 +333,14 @@ class SceneWriter {
     constexpr double finest = 0.01;  // [m]
     const auto count = static_cast<std::size_t>(
         std::clamp(std::ceil((high[0] - low[0]) / finest), 2.0, static_cast<double>(most)));
-    std::vector<float> profile;
+    const double middle = 0.5 * (low[1] + high[1]) + frames_.origin[1];
+    std::vector<float> profile;  // of a road with width that along its middle, no road far below
     for (std::size_t k = 0; k < count; ++k) {
       const double x =
           low[0] + (high[0] - low[0]) * static_cast<double>(k) / static_cast<double>(count - 1);
       profile.push_back(static_cast<float>(x));
-      profile.push_back(
-          static_cast<float>(road_at(road, x + frames_.origin[0]).z - frames_.origin[2]));
+      const double z = surface_at(road, x + frames_.origin[0], middle).z - frames_.origin[2];
+      profile.push_back(static_cast<float>(std::isfinite(z) ? z : low[2]));
     }
     return {{"name", road.name},
             {"profile", buffer_.add(std::span<const float>(profile), {count, 2})},

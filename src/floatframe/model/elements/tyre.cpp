@@ -298,6 +298,7 @@ constinit const ElementKind tyre_element = {
     .energy = EnergyCategory::tyres,
     .blank = [] { return ElementKeys(Tyre()); },
     .build = tyre_build,
+    .profile_only = true,
     .lifted = "road",
     .dual = tyre_law<Dual>,
     .side = tyre_side,
