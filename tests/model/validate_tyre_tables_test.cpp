@@ -24,7 +24,7 @@ D with_only(Keys keys) {
   return d;
 }
 template <class Keys>
-void expect_errors(const Keys& keys, const std::vector<DescriptionCase>& cases) {
+void expect_table_errors(const Keys& keys, const std::vector<DescriptionCase>& cases) {
   EXPECT_EQ(errors(with_only(keys)), "no error");
   for (const DescriptionCase& c : cases) {
     D d = with_only(keys);
@@ -46,7 +46,7 @@ TEST(ValidateTmeasyTyre, NamesWhatIsWrong) {
   keys.longitudinal_stiffness = 1.2e5;
   keys.lateral_stiffness = 8e4;
   const auto t = [](D& d) -> TmeasyTyre& { return only_force<TmeasyTyre>(d); };
-  expect_errors(
+  expect_table_errors(
       keys,
       {{[&](D& d) { t(d).radius = 0.0; }, "forces.t.radius: out_of_range"},
        {[&](D& d) { t(d).nominal_load = 0.0; }, "forces.t.nominal_load: out_of_range"},
@@ -73,7 +73,7 @@ TEST(ValidateCalspanTyre, NamesWhatIsWrong) {
   keys.camber = MatX{{2.29, 18175.0}};
   keys.friction = MatX{{-4.64e-5, 1.216, 2.18e-11}};
   const auto t = [](D& d) -> CalspanTyre& { return only_force<CalspanTyre>(d); };
-  expect_errors(keys,
+  expect_table_errors(keys,
                 {{[&](D& d) { t(d).cornering(2) = 0.0; }, "forces.t.cornering: wrong_value"},
                  {[&](D& d) { t(d).cornering(0) = -1.0; }, "forces.t.cornering: wrong_value"},
                  {[&](D& d) { t(d).camber(1) = -1.0; }, "forces.t.camber: wrong_value"},
@@ -88,7 +88,7 @@ TEST(ValidateAerodynamicLoad, NamesWhatIsWrong) {
   keys.area = 2.0;
   keys.drag = 0.3;
   const auto t = [](D& d) -> AerodynamicLoad& { return only_force<AerodynamicLoad>(d); };
-  expect_errors(keys,
+  expect_table_errors(keys,
                 {{[&](D& d) { t(d).area = 0.0; }, "forces.t.area: out_of_range"},
                  {[&](D& d) { t(d).drag = -0.1; }, "forces.t.drag: out_of_range"},
                  {[&](D& d) { t(d).drag = 0.0; }, "incomplete"},

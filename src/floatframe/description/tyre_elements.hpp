@@ -65,7 +65,7 @@ struct LinearTyre : RollingTyre {
   double rolling_resistance = 0.0;                ///< torque over load and radius
 };
 
-/// TMeasy (tyres/tmeasy.hpp): values at the nominal load and at twice, in rows.
+/// TMeasy: values at the nominal load and at twice, in rows.
 struct TmeasyTyre : RollingTyre {
   double radius = 0.0;             ///< unloaded [m]
   double nominal_load = 0.0;       ///< [N]
