@@ -1,5 +1,5 @@
-// Calspan tyre (tyres/calspan.hpp) in the contact of rolling_tyre.hpp, without a longitudinal force:
-// a wheel that turns keeps its spin; ISO-W.
+// Calspan tyre (tyres/calspan.hpp) in the contact of rolling_tyre.hpp, without a longitudinal
+// force: a wheel that turns keeps its spin; ISO-W.
 //   load        k (R - z), z = (R - d) cos(gamma) the distance of the wheel centre from the plane
 //               of the road
 //   slip        that of the wheel centre: alpha = atan(V_y/|V_x|)
