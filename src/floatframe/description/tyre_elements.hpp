@@ -65,6 +65,20 @@ struct LinearTyre : RollingTyre {
   double rolling_resistance = 0.0;                ///< torque over load and radius
 };
 
+/// How the Magic Formula takes slip angle and camber: in rad, as the manual of MF-Tyre 6.x, or as
+/// tan(alpha) and sin(gamma), as Pacejka's book.
+enum class SlipForm { manual, book };
+
+/// Magic Formula 5.2, 6.1 or 6.2 with the coefficients of a tyre property file.
+struct MagicFormulaTyre : RollingTyre {
+  std::string file;  ///< path of a .tir; of a built element: the hash of its content
+  SlipForm form = SlipForm::manual;
+  std::optional<double> pressure;  ///< [Pa]; absent: that of the file
+  bool limits = false;             ///< slips, camber and load within the ranges of the file
+  double friction = 1.0;           ///< factor of the scale factors LMUX and LMUY
+  double stiffness_factor = 1.0;   ///< factor of LKX and LKY
+};
+
 /// TMeasy: values at the nominal load and at twice, in rows.
 struct TmeasyTyre : RollingTyre {
   double radius = 0.0;             ///< unloaded [m]

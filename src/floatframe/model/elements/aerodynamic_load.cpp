@@ -2,8 +2,8 @@
 // that turn with the body, the point P, the air u = wind - v_P and b = density area/2:
 //   F = b |u| (C_drag u_1 e1 + C_side u_2 e2 + C_lift |u| e3)                                   (1)
 //   force       the drag -F.e1, towards the rear; and F.e2, F.e3
-//   rows        b C (|u| + u_i^2/|u|) along e1 and e2: they leave out what one direction has
-//               of the others, the lift, and the turning of the axes with the body
+//   rows        b C (|u| + u_i^2/|u|) along e1 and e2: they leave out what one direction has of
+//               the others, the lift, and the turning of the axes with the body
 // F is differentiable where there is no wind, with the derivative 0.
 #include <cmath>
 
