@@ -63,13 +63,13 @@ void estimate(const Model& model, const LinearSystem& system, const LinearMode& 
   const Eigen::VectorXcd y = system.bends_of * mode.z;
   Eigen::Index at = 0;
   for (BodyOrder& b : bodies) {
-    const FlexibleBody& data = *model.bodies[static_cast<std::size_t>(b.body)].data;
+    const FlexibleBody& data = *model.bodies[b.body].data;
     const InertiaInvariants& I = data.invariants;
     for (int k = 0; k < data.modes(); ++k, ++at) {
       const double mass = I.Sij[0][0](k, k) + I.Sij[1][1](k, k) + I.Sij[2][2](k, k);
       const double change =
           T > 0.0 ? std::abs(data.K(k, k) - w * w * mass) * std::norm(y[at]) / (4.0 * T) : 0.0;
-      double& worst = b.estimates[static_cast<std::size_t>(k)];
+      double& worst = b.estimates[k];
       worst = std::max(worst, change);
     }
   }
@@ -104,7 +104,7 @@ std::vector<std::vector<int>> kept_without(const Model& model, const std::vector
                                            const std::vector<Going>& all, std::size_t gone) {
   std::vector<std::vector<int>> keep(model.bodies.size());
   for (std::size_t k = gone; k < all.size(); ++k)
-    keep[static_cast<std::size_t>(bodies[all[k].body].body)].push_back(all[k].mode);
+    keep[bodies[all[k].body].body].push_back(all[k].mode);
   for (std::vector<int>& modes : keep) std::sort(modes.begin(), modes.end());
   return keep;
 }
@@ -216,7 +216,7 @@ ModelOrder model_order(const Model& model, const ModelOrderOptions& options) {
   }
   const auto keep = kept_without(model, order.bodies, all, ends[good]);
   for (BodyOrder& b : order.bodies) {
-    b.needed = keep[static_cast<std::size_t>(b.body)];
+    b.needed = keep[b.body];
     order.needed += static_cast<int>(b.needed.size());
   }
   warn_of_missing_modes(model, options, order);

@@ -117,7 +117,7 @@ RegularFile::RegularFile(const std::filesystem::path& file) : name_(file.string(
     if (number_ >= 0) ::close(number_);
     throw InputError(ErrorCode::unreadable, {name_, 0, 0}, why);
   }
-  size_ = static_cast<std::uint64_t>(std::max<off_t>(status.st_size, 0));
+  size_ = std::max<off_t>(status.st_size, 0);
 }
 
 RegularFile::~RegularFile() { ::close(number_); }
@@ -125,7 +125,7 @@ RegularFile::~RegularFile() { ::close(number_); }
 std::size_t RegularFile::read(char* to, std::size_t count) {
   for (;;) {
     const ssize_t got = ::read(number_, to, count);
-    if (got >= 0) return static_cast<std::size_t>(got);
+    if (got >= 0) return got;
     if (errno != EINTR)
       throw InputError(ErrorCode::unreadable, {name_, 0, 0},
                        std::string("the file cannot be read (") + std::strerror(errno) + ")");

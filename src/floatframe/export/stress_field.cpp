@@ -16,8 +16,7 @@ std::map<std::pair<int, int>, std::pair<int, int>> places_of_sections(const Body
     const BeamSectionPlace& section = stress.sections[s];
     int end = stress.first_place[s];
     const int first = end, all = static_cast<int>(stress.places.size());
-    while (end < all &&
-           stress.places[static_cast<std::size_t>(end)].layer == StressPlace::Layer::section &&
+    while (end < all && stress.places[end].layer == StressPlace::Layer::section &&
            (s + 1 == stress.first_place.size() || end < stress.first_place[s + 1]))
       ++end;
     out[{section.element, section.end}] = {first, end};
@@ -28,7 +27,7 @@ std::map<std::pair<int, int>, std::pair<int, int>> places_of_sections(const Body
 }  // namespace
 
 VecX stress_loads(const SystemMotion& motion, int body) {
-  const int nm = motion.model.bodies[static_cast<std::size_t>(body)].modes();
+  const int nm = motion.model.bodies[body].modes();
   VecX c(body_load_cases + nm);
   c.head<body_load_cases>() = body_load_coefficients(motion, body);
   c.tail(nm) = -motion.body(body).ydd;
@@ -53,17 +52,16 @@ void StressField::add_places(const BodyPicture& picture) {
   for (std::size_t k = 0; k < stress_->places.size(); ++k) {
     const int point = stress_->places[k].point;
     if (point >= 0 && point < picture.surface_points())
-      of_point[static_cast<std::size_t>(point)].push_back(static_cast<int>(k));
+      of_point[point].push_back(static_cast<int>(k));
   }
   // A beam of a part is drawn as a line: its ends show the stress of the outer section points.
   std::map<int, std::set<int>> line_ends;  // of each node
   for (const auto& line : picture.lines)
-    for (const int p : line) line_ends[picture.nodes[static_cast<std::size_t>(p)]].insert(p);
+    for (const int p : line) line_ends[picture.nodes[p]].insert(p);
   for (std::size_t k = 0; k < stress_->places.size(); ++k) {
     const StressPlace& place = stress_->places[k];
     if (place.point >= 0 || !line_ends.contains(place.node)) continue;
-    for (const int p : line_ends[place.node])
-      of_point[static_cast<std::size_t>(p)].push_back(static_cast<int>(k));
+    for (const int p : line_ends[place.node]) of_point[p].push_back(static_cast<int>(k));
   }
   // Each corner of a swept section shows the stress of the nearest outer point.
   const auto sections = places_of_sections(*stress_);
@@ -92,12 +90,12 @@ bool StressField::shown(Eigen::Index point, Shown& out) const noexcept {
   const auto at = static_cast<std::size_t>(point);
   bool any = false;
   for (int i = first_[at]; i < first_[at + 1]; ++i) {
-    const int k = places_[static_cast<std::size_t>(i)];
+    const int k = places_[i];
     const Vec6 s = values_.segment<6>(6 * k);
     const double equivalent = von_mises(s);
     if (any && !(equivalent > out.von_mises)) continue;
     any = true;
-    out = {s, equivalent, &stress_->places[static_cast<std::size_t>(k)]};
+    out = {s, equivalent, &stress_->places[k]};
   }
   return any;
 }

@@ -14,19 +14,19 @@ namespace floatframe {
 namespace {
 
 const Body& body_of(const StressReport& report, const StressedBody& b) {
-  return report.model->bodies[static_cast<std::size_t>(b.body)];
+  return report.model->bodies[b.body];
 }
 
 const StressPlace& place_of(const Body& body, const HotSpot& spot) {
-  return body.data->stress->places[static_cast<std::size_t>(spot.place)];
+  return body.data->stress->places[spot.place];
 }
 
 const std::string& material_of(const Body& body, const StressPlace& place) {
-  return body.data->stress->groups[static_cast<std::size_t>(place.group)].name;
+  return body.data->stress->groups[place.group].name;
 }
 
 const BeamSectionPlace& section_of(const Body& body, const SectionPeak& peak) {
-  return body.data->stress->sections[static_cast<std::size_t>(peak.section)];
+  return body.data->stress->sections[peak.section];
 }
 
 /// Values that are rounding noise relative to `largest` are shown as zero.

@@ -77,9 +77,8 @@ void add_shape(const BodyShape& shape, Eigen::Index nm, const std::string& at, A
     arrays.add_indices(at + "surface_triangles", shape.triangles, 3);
     if (!shape.lines.empty()) arrays.add_indices(at + "surface_lines", shape.lines, 2);
     if (!shape.nodes.empty())
-      arrays.add<std::uint32_t>(at + "surface_nodes", "u32", {points}, [&](Eigen::Index k) {
-        return shape.nodes[static_cast<std::size_t>(k)];
-      });
+      arrays.add<std::uint32_t>(at + "surface_nodes", "u32", {points},
+                                [&](Eigen::Index k) { return shape.nodes[k]; });
   }
   if (shape.bars.empty()) return;
   const std::vector<BodyShape::Bar>& bars = shape.bars;

@@ -77,11 +77,11 @@ void find_output_columns(ExcitedSystem& excited, const std::vector<double>& inpu
   }
   for (MatX& D : linear.D) D = MatX::Zero(ny, nu);
   for (Eigen::Index j = 0; j < nu; ++j) {
-    const LinearInput& input = linear.inputs[static_cast<std::size_t>(j)];
+    const LinearInput& input = linear.inputs[j];
     for (int k = 0; k <= input.order(); ++k) {
       const VecX x = k == 0 ? VecX(moved.x.col(j)) : still;
       const VecX v = k < 2 ? VecX(moved.v[k].col(j)) : still;
-      const double h = input_steps[static_cast<std::size_t>(j)] * std::pow(10.0, k);
+      const double h = input_steps[j] * std::pow(10.0, k);
       const VecX a = moved.a[k].col(j);
       const VecX dparts = precise_differences(VecX::Constant(1, h), 0, [&](const VecX& s) {
                             excited.move(input, s[0] * Vec3::Unit(k));
@@ -114,7 +114,7 @@ LinearModel linear_model_of(const Model& model, const LinearPorts& ports,
   std::vector<double> steps;
   linear.input_values.resize(nu);
   for (Eigen::Index j = 0; j < nu; ++j) {
-    const LinearInput& input = linear.inputs[static_cast<std::size_t>(j)];
+    const LinearInput& input = linear.inputs[j];
     steps.push_back(excited.step_of(input));
     excited.derivatives(input, steps.back(), j, motions);
     linear.input_values[j] = excited.value(input);
@@ -122,7 +122,7 @@ LinearModel linear_model_of(const Model& model, const LinearPorts& ports,
   kinematics_at(f, excited.state());
   for (LinearInput& input : linear.inputs)
     if (input.wheels.size() == 1) {
-      const Element& wheel = model.elements[static_cast<std::size_t>(input.wheels[0])];
+      const Element& wheel = model.elements[input.wheels[0]];
       input.place = f.motion().place(wheel.markers[0]).x();
     }
   LinearInputs moved;
@@ -168,12 +168,7 @@ std::vector<LinearInput> linear_inputs(const Model& model) {
   if (!wheels.empty()) inputs.push_back({"road", "m", Kind::road, -1, wheels, 0.0});
   if (wheels.size() > 1)
     for (const int k : wheels)
-      inputs.push_back({"road at " + model.elements[static_cast<std::size_t>(k)].name,
-                        "m",
-                        Kind::road,
-                        -1,
-                        {k},
-                        0.0});
+      inputs.push_back({"road at " + model.elements[k].name, "m", Kind::road, -1, {k}, 0.0});
   return inputs;
 }
 
@@ -204,7 +199,7 @@ StateSpace state_space(const LinearModel& linear) {
   const char* const per[] = {"", "/s", "/s2"};
   Eigen::Index at = nz;
   for (Eigen::Index j = 0; j < nu; ++j) {
-    const LinearInput& input = linear.inputs[static_cast<std::size_t>(j)];
+    const LinearInput& input = linear.inputs[j];
     const int order = input.order();
     for (int k = 0; k < order; ++k, ++at) {  // u, u': states
       s.A.col(at).head(nz) = linear.B[k].col(j);

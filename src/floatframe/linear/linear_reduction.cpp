@@ -46,16 +46,16 @@ FreeCoordinates free_coordinates(const SmallMotions& m, const InputMotions& u) {
     const PivotedQr qr = pivoted_qr(m.J * unit.asDiagonal(), 1e-11);
     for (Eigen::Index k = 0; k < qr.rank; ++k) {
       decided.push_back(qr.pivots[k]);
-      is_free[static_cast<std::size_t>(qr.pivots[k])] = false;
+      is_free[qr.pivots[k]] = false;
     }
   }
   FreeCoordinates c;
   for (Eigen::Index j = 0; j < nv; ++j)
-    if (is_free[static_cast<std::size_t>(j)]) c.free.push_back(j);
+    if (is_free[j]) c.free.push_back(j);
   const auto n = static_cast<Eigen::Index>(c.free.size());
   const MatX J_D = m.J(Eigen::all, decided), J_I = m.J(Eigen::all, c.free);
   MatX S = MatX::Zero(nv, n);
-  for (Eigen::Index k = 0; k < n; ++k) S(c.free[static_cast<std::size_t>(k)], k) = 1.0;
+  for (Eigen::Index k = 0; k < n; ++k) S(c.free[k], k) = 1.0;
   const auto follow = [&](const MatX& B) { return in_decided(J_D, decided, nv, B); };
   c.N = S + follow(-J_I);
   c.P = follow(-(m.G * c.N));

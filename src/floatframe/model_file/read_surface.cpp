@@ -83,7 +83,7 @@ std::optional<GridNumbers> read_grid_file(const ModelInstance& self, const YamlV
                   fmt::format("found no number in column {}, expected y [m]", j + 1));
     grid.y.push_back(*y);
   }
-  grid.z.resize(static_cast<Eigen::Index>(csv.rows() - first), std::ssize(grid.y));
+  grid.z.resize(csv.rows() - first, std::ssize(grid.y));
   for (std::size_t i = first; i < csv.rows(); ++i)
     for (std::size_t j = 0; j < csv.columns; ++j) {
       const double number = csv.at(i, j);
@@ -93,7 +93,7 @@ std::optional<GridNumbers> read_grid_file(const ModelInstance& self, const YamlV
       if (j == 0)
         grid.x.push_back(number);
       else
-        grid.z(static_cast<Eigen::Index>(i - first), static_cast<Eigen::Index>(j - 1)) = number;
+        grid.z(i - first, j - 1) = number;
     }
   return grid;
 }

@@ -340,7 +340,7 @@ class SceneWriter {
           low[0] + (high[0] - low[0]) * static_cast<double>(k) / static_cast<double>(count - 1);
       profile.push_back(static_cast<float>(x));
       const double z = surface_at(road, x + frames_.origin[0], middle).z - frames_.origin[2];
-      profile.push_back(static_cast<float>(std::isfinite(z) ? z : low[2]));
+      profile.push_back(std::isfinite(z) ? z : low[2]);
     }
     return {{"name", road.name},
             {"profile", buffer_.add(std::span<const float>(profile), {count, 2})},

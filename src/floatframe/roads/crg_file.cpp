@@ -97,11 +97,11 @@ class CrgFileReader {
       return;
     }
     for (std::size_t k = 0; k < order.size(); ++k)
-      if (order[k].first != static_cast<double>(k + 1))
+      if (order[k].first != k + 1.0)
         fail(ErrorCode::wrong_value, header_.channels[order[k].second].mark,
              fmt::format("found the long section {:g}, expected {}: they are numbered from 1 on",
                          order[k].first, k + 1));
-    across(static_cast<double>(order.size() - 1));
+    across(std::ssize(order) - 1.0);
   }
 
   /// Equally spaced columns, `steps` between them.
@@ -119,8 +119,7 @@ class CrgFileReader {
            fmt::format("found {} long sections every {:g} m from {:g} m to {:g} m, expected {:.6g}",
                        steps + 1.0, h, *right, *left, (*left - *right) / h + 1.0));
     const double first = right ? *right : left ? *left - steps * h : -0.5 * steps * h;
-    for (std::size_t k = 0; k < order_.size(); ++k)
-      road_.v.push_back(first + h * static_cast<double>(k));
+    for (std::size_t k = 0; k < order_.size(); ++k) road_.v.push_back(first + h * k);
   }
 
   // -- rows
@@ -198,7 +197,7 @@ class CrgFileReader {
         Bits bits = 0;
         for (const char c : bytes)
           bits = static_cast<Bits>(bits << 8) | static_cast<unsigned char>(c);
-        row[k] = static_cast<double>(std::bit_cast<Float>(bits));
+        row[k] = std::bit_cast<Float>(bits);
         number = number || !std::isnan(row[k]);
       }
       if (have < count) {
@@ -266,7 +265,7 @@ class CrgFileReader {
       else
         ++filled_;
       if (header_.format == CrgFormat::KRBI)
-        road_.singles.push_back(static_cast<float>(z));
+        road_.singles.push_back(z);
       else
         road_.doubles.push_back(z);
     }
@@ -279,7 +278,7 @@ class CrgFileReader {
     const auto end = header_.value("REFERENCE_LINE_END_U");
     if (!end) return;
     const double expected = (*end - start_) / step_ + 1.0;
-    if (std::abs(expected - static_cast<double>(rows_)) > 0.5)
+    if (std::abs(expected - rows_) > 0.5)
       fail(ErrorCode::mismatch, header_.mark("REFERENCE_LINE_END_U"),
            fmt::format("found {} cross sections, expected {:.6g}, every {:g} m from {:g} m to {:g} "
                        "m",
@@ -289,14 +288,14 @@ class CrgFileReader {
   /// From its beginning by steps, and if an end is given, bent so that it ends there.
   std::vector<double> summed(double start, std::optional<double> end, const auto& rise) const {
     std::vector<double> x(rows_, start);
-    const double n = static_cast<double>(rows_ - 1);
+    const double n = rows_ - 1.0;
     if (end) {
       x.back() = *end;
       for (std::size_t k = rows_ - 1; k > 0; --k) x[k - 1] = x[k] - step_ * rise(k);
       x[0] = start;
     }
     for (std::size_t k = 1; k < rows_; ++k) {
-      const double share = end ? static_cast<double>(k) / n : 0.0;
+      const double share = end ? k / n : 0.0;
       x[k] = (1.0 - share) * (x[k - 1] + step_ * rise(k)) + share * x[k];
     }
     return x;
@@ -336,7 +335,7 @@ class CrgFileReader {
   void ends_apart(double x, double y, std::optional<double> end_x, std::optional<double> end_y) {
     if (!end_x) return;
     const double gap = std::hypot(x - *end_x, y - *end_y);
-    if (gap > 1e-3 && gap > 1e-4 * step_ * static_cast<double>(rows_))
+    if (gap > 1e-3 && gap > 1e-4 * step_ * rows_)
       note(fmt::format("its headings lead {:.3g} m away from the end that the header gives{}", gap,
                        heading_.empty() ? "; they are taken" : "; the line is bent to end there"));
   }

@@ -21,7 +21,7 @@ constexpr const char* formats[] = {"LRFI", "LDFI", "KRBI", "KDBI"};
 std::string capitals(std::string_view text) {
   std::string out(text);
   for (char& c : out)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+    if (c >= 'a' && c <= 'z') c -= 'a' - 'A';
   return out;
 }
 

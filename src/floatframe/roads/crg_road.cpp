@@ -50,7 +50,7 @@ Cell uniform_cell(double x, double low, double h, std::size_t count) noexcept {
   const double t = std::max((x - low) / h, 0.0);
   Cell c;
   c.k = std::min(static_cast<std::size_t>(t), count - 2);
-  c.s = std::min(t - static_cast<double>(c.k), 1.0);
+  c.s = std::min(t - c.k, 1.0);
   c.h = h;
   c.before = c.k > 0 ? h : 0.0;
   c.behind = c.k + 2 < count ? h : 0.0;
@@ -60,7 +60,7 @@ Cell uniform_cell(double x, double low, double h, std::size_t count) noexcept {
 Cell cell_of(const std::vector<double>& x, double at) noexcept {
   const auto it = std::upper_bound(x.begin() + 1, x.end() - 1, at);
   Cell c;
-  c.k = static_cast<std::size_t>(it - x.begin()) - 1;
+  c.k = it - x.begin() - 1;
   c.h = x[c.k + 1] - x[c.k];
   c.s = std::clamp((at - x[c.k]) / c.h, 0.0, 1.0);
   c.before = c.k > 0 ? x[c.k] - x[c.k - 1] : 0.0;

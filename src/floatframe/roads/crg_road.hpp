@@ -55,7 +55,7 @@ struct CrgRoad {
   }
   double grid(std::size_t row, std::size_t column) const noexcept {
     const std::size_t k = row * v.size() + column;
-    return singles.empty() ? doubles[k] : static_cast<double>(singles[k]);
+    return singles.empty() ? doubles[k] : singles[k];
   }
 };
 

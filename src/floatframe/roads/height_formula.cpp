@@ -22,9 +22,8 @@ SurfacePoint formula_height(const Formula& formula, double x, double y) noexcept
   FormulaSwitches switches;
   FormulaFault fault;
   const auto variable = [&](int k) noexcept {
-    return formula.references[static_cast<std::size_t>(k)].name == "x"
-               ? SurfaceJet(x, 1.0, 0.0, 0.0, 0.0, 0.0)
-               : SurfaceJet(y, 0.0, 1.0, 0.0, 0.0, 0.0);
+    return formula.references[k].name == "x" ? SurfaceJet(x, 1.0, 0.0, 0.0, 0.0, 0.0)
+                                             : SurfaceJet(y, 0.0, 1.0, 0.0, 0.0, 0.0);
   };
   const auto z = evaluate_formula<SurfaceJet>(formula, variable, switches, fault);
   return {z.f, z.x, z.y, z.xx, z.xy, z.yy, 1.0};

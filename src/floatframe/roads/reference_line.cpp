@@ -69,7 +69,7 @@ void ReferenceLine::begin_at_origin() {
 
 ReferenceLine::Node ReferenceLine::node(std::size_t k) const noexcept {
   if (!nodes_.empty()) return nodes_[k];
-  const double s = du_ * static_cast<double>(k);
+  const double s = du_ * k;
   return {start_.x + s * cosine_[0], start_.y + s * sine_[0]};
 }
 
@@ -135,7 +135,7 @@ LinePlace ReferenceLine::in_interval(std::size_t k, double x, double y) const no
   const double sx = ax + bx, sy = ay + by;
   const double dx = (ax - share * sx) / sum, dy = (ay - share * sy) / sum;
   LinePlace out;
-  out.u = u0_ + du_ * (static_cast<double>(k) + share);  // (1)
+  out.u = u0_ + du_ * (k + share);  // (1)
   out.ux = du_ * dx;
   out.uy = du_ * dy;
   out.uxx = -2.0 * du_ * dx * sx / sum;
@@ -174,7 +174,7 @@ LinePlace ReferenceLine::at(double x, double y) const noexcept {
 std::size_t ReferenceLine::index_of(double u) const noexcept {
   const double k = (u - u0_) / du_;
   if (!(k > 0.0)) return 0;
-  return k < static_cast<double>(steps_) ? static_cast<std::size_t>(k) : steps_ - 1;
+  return k < steps_ ? static_cast<std::size_t>(k) : steps_ - 1;
 }
 
 ReferenceLine::Node ReferenceLine::place(double u, double v) const noexcept {
@@ -186,7 +186,7 @@ ReferenceLine::Node ReferenceLine::place(double u, double v) const noexcept {
     return {p.x + s * cosine - v * sine, p.y + s * sine + v * cosine};
   }
   const std::size_t k = index_of(u);
-  const double share = (u - u0_) / du_ - static_cast<double>(k);
+  const double share = (u - u0_) / du_ - k;
   const Node &p = nodes_[k], &q = nodes_[k + 1], e{q.x - p.x, q.y - p.y};
   const double length = std::sqrt(e.x * e.x + e.y * e.y);
   // On the normals of both ends, at the distance v from the step.
@@ -210,7 +210,7 @@ double ReferenceLine::curvature(double u, double v) const noexcept {
   if (n > k || k + n > steps_) return 0.0;
   const Node &p = nodes_[k - n], &q = nodes_[k], &r = nodes_[k + n];
   const double turn = (q.x - p.x) * (r.y - q.y) - (q.y - p.y) * (r.x - q.x);
-  const double c = turn / std::pow(du_ * static_cast<double>(n), 3.0);
+  const double c = turn / std::pow(du_ * n, 3.0);
   if (!(std::abs(c) > 1e-10)) return c;
   const double radius = 1.0 / c - v;
   return std::abs(radius) < 1e-6 ? 1e6 : 1.0 / radius;

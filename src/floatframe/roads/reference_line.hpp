@@ -35,7 +35,7 @@ class ReferenceLine {
   ReferenceLine(double u0, double du, std::vector<Node> nodes, double first, double last);
 
   double first() const noexcept { return u0_; }
-  double last() const noexcept { return u0_ + du_ * static_cast<double>(steps_); }
+  double last() const noexcept { return u0_ + du_ * steps_; }
   double step() const noexcept { return du_; }
   /// Turned and moved so that it begins at the origin along x.
   void begin_at_origin();

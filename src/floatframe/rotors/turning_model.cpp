@@ -16,9 +16,9 @@ namespace floatframe {
 
 SteadyTurning TurningModel::Impl::steady(double speed, double angle) {
   if (rotor.driven) {
-    const Joint& joint = model.joints[static_cast<std::size_t>(rotor.joint)];
+    const Joint& joint = model.joints[rotor.joint];
     const double begin = joint.position.empty() ? 0.0 : joint.position.back();
-    model.elements[static_cast<std::size_t>(joint.motion)].signals[0].function =
+    model.elements[joint.motion].signals[0].function =
         TimeFunction{PiecewisePolynomial::polynomial({begin + angle, speed})};
     f = std::make_unique<RelativeFormulation>(model, model.simulation.inertia);
   }
@@ -36,7 +36,7 @@ MatX TurningModel::Impl::motion_map(const SteadyTurning& s, double angle) const 
   for (const Body& b : model.bodies) rows += 6 + b.modes();
   MatX W = MatX::Zero(rows, nv);
   std::vector<const RotorBody*> turning(model.bodies.size(), nullptr);
-  for (const RotorBody& r : rotor.bodies) turning[static_cast<std::size_t>(r.body)] = &r;
+  for (const RotorBody& r : rotor.bodies) turning[r.body] = &r;
   std::vector<MatX> D(model.bodies.size());
   for (std::size_t i = 0; i < D.size(); ++i)
     if (turning[i]) D[i] = turned_modes(turning[i]->G, s.angle + angle);
@@ -110,7 +110,7 @@ TurningModel::Impl::InWorld TurningModel::Impl::in_world(const SteadyTurning& s,
 bool TurningModel::Impl::bent(const SteadyTurning& s) const {
   for (const RotorBody& r : rotor.bodies) {
     const TreeBody& b = f->tree().body(r.body);
-    const Body& body = model.bodies[static_cast<std::size_t>(r.body)];
+    const Body& body = model.bodies[r.body];
     const VecX change = r.G * s.state.q.segment(b.iyq, b.nm);
     for (const ModalNode& n : body.data->nodes)
       if ((n.X * change).norm() > 1e-9 * body.length) return true;
@@ -212,10 +212,9 @@ double TurningModel::eccentricity() const {
   Vec3 moment = Vec3::Zero();
   double mass = 0.0;
   for (const RotorBody& r : impl_->rotor.bodies) {
-    const InertiaInvariants& I =
-        impl_->model.bodies[static_cast<std::size_t>(r.body)].data->invariants;
+    const InertiaInvariants& I = impl_->model.bodies[r.body].data->invariants;
     const Vec3 c = I.centre_of_mass() - r.p_BP;
-    const Mat3 R = impl_->model.bodies[static_cast<std::size_t>(r.body)].X_WB.R;
+    const Mat3 R = impl_->model.bodies[r.body].X_WB.R;
     moment += I.m * (R * (c - r.axis * r.axis.dot(c)));
     mass += I.m;
   }

@@ -25,11 +25,11 @@ Eigen::VectorXcd generalised(RelativeFormulation& f, const Model& model, const S
     f.velocities(unit);
     const SystemMotion& motion = f.motion();
     for (const AxisForce& force : forces) {
-      const Body& body = model.bodies[static_cast<std::size_t>(force.body)];
+      const Body& body = model.bodies[force.body];
       const BodyKinematics& b = motion.body(force.body);
       Vec3 p = force.p_BP, rate = Vec3::Zero();
       if (force.node >= 0) {
-        const ModalNode& n = body.data->nodes[static_cast<std::size_t>(force.node)];
+        const ModalNode& n = body.data->nodes[force.node];
         p = n.p + n.X * b.y;
         rate = n.X * b.yd;
       }
@@ -74,10 +74,10 @@ class OutputSlopes {
     const SystemMotion& motion = f_.motion({.accelerations = true, .energies = true});
     VecX y(static_cast<Eigen::Index>(outputs_.size()));
     for (std::size_t k = 0; k < outputs_.size(); ++k) {
-      const Output& output = f_.model().outputs[static_cast<std::size_t>(outputs_[k])];
+      const Output& output = f_.model().outputs[outputs_[k]];
       if (!followed_[outputs_[k]].started) output_value(motion, output, followed_[outputs_[k]]);
       FollowedOutput last = followed_[outputs_[k]];
-      y[static_cast<Eigen::Index>(k)] = output_value(motion, output, last);
+      y[k] = output_value(motion, output, last);
     }
     return y;
   }
@@ -94,8 +94,7 @@ class OutputSlopes {
     for (Eigen::Index k = 0; k < means_.size(); ++k) {
       const double bend = std::abs(near[k] + back[k] - 2.0 * means_[k]),
                    size = std::abs(near[k] - means_[k]) + std::abs(back[k] - means_[k]);
-      if (bend > 0.5 * size && bend > 1e-12 * (1.0 + std::abs(means_[k])))
-        smooth[static_cast<std::size_t>(k)] = 0;
+      if (bend > 0.5 * size && bend > 1e-12 * (1.0 + std::abs(means_[k]))) smooth[k] = 0;
     }
     return ((4.0 * (near - back) / h - (ahead - behind) / (2.0 * h)) / 3.0).cast<Complex>();
   }
@@ -117,7 +116,7 @@ Eigen::VectorXcd both(const MatX& columns) {
 Mat3 TurningModel::directions() const {
   const Rotor& rotor = impl_->rotor;
   const RotorBody& first = rotor.bodies.front();
-  const Vec3 e = impl_->model.bodies[static_cast<std::size_t>(first.body)].X_WB.R * first.axis;
+  const Vec3 e = impl_->model.bodies[first.body].X_WB.R * first.axis;
   Mat3 d;
   d << rotor.e_1, e.cross(rotor.e_1), e;
   return d;

@@ -6,6 +6,7 @@
 
 #include "floatframe/stepping/stepping.hpp"
 #include "floatframe/vehicle/circle_figures.hpp"
+#include "floatframe/vehicle/vehicle_parts.hpp"
 #include "floatframe/vehicle/vehicle_setup.hpp"
 
 namespace floatframe {
@@ -26,13 +27,6 @@ std::vector<RiggedWheel> rigged_wheels(const VehicleDescription& v) {
   return out;
 }
 
-const BodyDescription& rig_body(const ModelDescription& d, const std::string& name) {
-  const auto it = std::ranges::find(d.bodies, name, &BodyDescription::name);
-  if (it == d.bodies.end())
-    throw InputError(ErrorCode::not_found, "vehicle: unknown body '" + name + "'");
-  return *it;
-}
-
 AttachmentDescription rig_place(const std::string& body, const Vec3& point) {
   AttachmentDescription out;
   out.body = body;
@@ -47,17 +41,15 @@ void hold_chassis(ModelDescription& d) {
     return (j.parent.body == ground_name && j.child.body == chassis) ||
            (j.child.body == ground_name && j.parent.body == chassis);
   });
-  JointDescription weld;
-  weld.name = "vehicle.rig.chassis";
-  weld.type = JointType::weld;
-  weld.parent = rig_place(ground_name, rig_body(d, chassis).X_WB.p);
-  weld.child = rig_place(chassis, rig_body(d, chassis).X_WB.p);
+  JointDescription weld = joint_of_type("vehicle.rig.chassis", "weld");
+  weld.parent = rig_place(ground_name, vehicle_body(d, chassis).X_WB.p);
+  weld.child = rig_place(chassis, vehicle_body(d, chassis).X_WB.p);
   d.joints.push_back(std::move(weld));
 }
 
 /// A plane below the wheel centre that a prismatic joint holds at the height `travel`.
 void hold_wheel(ModelDescription& d, const RiggedWheel& w, double travel) {
-  const Vec3 centre = design_centre(rig_body(d, w.wheel->wheel));
+  const Vec3 centre = design_centre(vehicle_body(d, w.wheel->wheel));
   const std::string name = "vehicle.rig." + w.name;
   BodyDescription plate;
   plate.name = name;
@@ -65,9 +57,7 @@ void hold_wheel(ModelDescription& d, const RiggedWheel& w, double travel) {
   plate.X_WT = plate.X_WB;
   plate.kind = RigidDescription{};
   d.bodies.push_back(std::move(plate));
-  JointDescription lift;
-  lift.name = name;
-  lift.type = JointType::prismatic;
+  JointDescription lift = joint_of_type(name, "prismatic");
   lift.parent = rig_place(ground_name, centre);
   lift.child = rig_place(name, centre);
   lift.axis = Vec3::UnitZ();
@@ -79,31 +69,33 @@ void hold_wheel(ModelDescription& d, const RiggedWheel& w, double travel) {
   plane.axis = Vec3::UnitZ();
   d.constraints.push_back({name, plane, {}});
   std::erase_if(d.forces, [&](const ElementDescription& e) { return e.name == w.wheel->tyre; });
-  const auto spin = std::ranges::find(d.joints, w.wheel->spin, &JointDescription::name);
-  if (spin == d.joints.end() || spin->type != JointType::revolute) return;
+  JointDescription* spin = spin_joint(d, w.wheel->spin);
+  if (spin == nullptr) return;
   spin->velocity.clear();
   spin->motion = TimeFunction{.pieces = PiecewisePolynomial::polynomial({0.0})};
 }
 
 /// Nine outputs of a wheel: its centre, a point 1 m to the left on its axis, the plane's force.
 void measure_wheel(ModelDescription& d, const RiggedWheel& w) {
-  const Vec3 centre = design_centre(rig_body(d, w.wheel->wheel));
-  const auto add = [&](const char* what, OutputType type, int component, const Vec3& point) {
-    OutputDescription o;
-    o.name = "vehicle.rig." + w.name + "." + what + "xyz"[component];
-    o.type = type;
-    o.component = component;
-    if (type == OutputType::position) {
+  const Vec3 centre = design_centre(vehicle_body(d, w.wheel->wheel));
+  const std::string name = "vehicle.rig." + w.name;
+  const auto add = [&](const char* what, const Vec3& point) {
+    for (int k = 0; k < 3; ++k) {
+      OutputDescription o = output_of_type(name + "." + what + "xyz"[k], "position");
+      o.component = k;
       o.at = rig_place(w.wheel->wheel, point);
-    } else {
-      o.entity = "vehicle.rig." + w.name;
-      o.constraint = true;
+      d.outputs.push_back(std::move(o));
     }
-    d.outputs.push_back(std::move(o));
   };
-  for (int k = 0; k < 3; ++k) add("centre_", OutputType::position, k, centre);
-  for (int k = 0; k < 3; ++k) add("axis_", OutputType::position, k, centre + Vec3::UnitY());
-  for (int k = 0; k < 3; ++k) add("force_", OutputType::joint_force, k, centre);
+  add("centre_", centre);
+  add("axis_", centre + Vec3::UnitY());
+  for (int k = 0; k < 3; ++k) {
+    OutputDescription o = output_of_type(name + ".force_" + "xyz"[k], "joint_force");
+    o.component = k;
+    o.entity = name;
+    o.constraint = true;
+    d.outputs.push_back(std::move(o));
+  }
 }
 
 struct RiggedPoint {
@@ -159,7 +151,7 @@ RigPoint measured_point(const ModelDescription& description, const RiggedPoint& 
     Vec3 left, right;
     const auto wheel = [&](std::size_t i, Vec3& lowest) {
       return wheel_of(simulation.outputs().data() + 9 * i, wheels[i].left,
-                      design_centre(rig_body(description, wheels[i].wheel->wheel)), lowest);
+                      design_centre(vehicle_body(description, wheels[i].wheel->wheel)), lowest);
     };
     axle.left = wheel(k, left);
     axle.right = wheel(k + 1, right);

@@ -3,15 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "floatframe/vehicle/vehicle_parts.hpp"
+
 namespace floatframe {
 namespace {
-
-const BodyDescription& body_of(const ModelDescription& d, const std::string& name) {
-  const auto it = std::ranges::find(d.bodies, name, &BodyDescription::name);
-  if (it == d.bodies.end())
-    throw InputError(ErrorCode::not_found, "vehicle: unknown body '" + name + "'");
-  return *it;
-}
 
 void require_roles(const ModelDescription& d, const std::string& manoeuvre,
                    const VehicleNeeds& needs) {
@@ -41,36 +36,32 @@ void require_roles(const ModelDescription& d, const std::string& manoeuvre,
 }
 
 void add_measured(ModelDescription& d, const Vec3& driver) {
-  const auto add = [&](Measured which, OutputType type, int component, bool point) {
-    OutputDescription o;
-    o.name = measured_names[int(which)];
-    o.type = type;
+  const auto add = [&](int which, const char* type, int component, bool point) {
+    OutputDescription o = output_of_type(measured_names[which], type);
     o.component = component;
     o.at.body = d.vehicle->chassis;
     if (point) o.at.point = driver;
     d.outputs.push_back(std::move(o));
   };
-  for (int k = 0; k < 3; ++k) add(Measured(int(Measured::x) + k), OutputType::position, k, true);
-  for (int k = 0; k < 3; ++k) add(Measured(int(Measured::vx) + k), OutputType::velocity, k, true);
-  for (int k = 0; k < 3; ++k)
-    add(Measured(int(Measured::ax) + k), OutputType::acceleration, k, true);
-  for (int k = 0; k < 3; ++k)
-    add(Measured(int(Measured::roll) + k), OutputType::rotation, k, false);
-  add(Measured::yaw_rate, OutputType::angular_velocity, 2, false);
+  for (int k = 0; k < 3; ++k) {
+    add(int(Measured::x) + k, "position", k, true);
+    add(int(Measured::vx) + k, "velocity", k, true);
+    add(int(Measured::ax) + k, "acceleration", k, true);
+    add(int(Measured::roll) + k, "rotation", k, false);
+  }
+  add(int(Measured::yaw_rate), "angular_velocity", 2, false);
 }
 
 void add_load(ModelDescription& d, const std::string& wheel, const std::string& tyre) {
-  OutputDescription o;
-  o.name = "vehicle." + wheel + ".load";
-  o.type = OutputType::force;
+  OutputDescription o = output_of_type("vehicle." + wheel + ".load", "force");
   o.entity = tyre;
   d.outputs.push_back(std::move(o));
 }
 
 /// A wheel rolls at v/R; about an axis that points to the right the other way round.
 void spin_up(ModelDescription& d, const VehicleWheel& wheel, double rate) {
-  const auto joint = std::ranges::find(d.joints, wheel.spin, &JointDescription::name);
-  if (joint == d.joints.end() || joint->type != JointType::revolute) return;
+  JointDescription* joint = spin_joint(d, wheel.spin);
+  if (joint == nullptr) return;
   const bool turned = joint->child.body != wheel.wheel;
   const double along = joint->axis.y() / joint->axis.norm() * (turned ? -1.0 : 1.0);
   joint->velocity = {rate * (along < 0.0 ? -1.0 : 1.0)};
@@ -89,8 +80,10 @@ VehicleSetup vehicle_setup(ModelDescription description, const std::string& mano
   VehicleSetup out{.description = std::move(description), .axles = {}};
   ModelDescription& d = out.description;
   const VehicleDescription& v = *d.vehicle;
-  const Vec3 driver = v.driver.value_or(body_of(d, v.chassis).X_WB.p);
-  const auto centre = [&](const VehicleWheel& w) { return design_centre(body_of(d, w.wheel)); };
+  const Vec3 driver = v.driver.value_or(vehicle_body(d, v.chassis).X_WB.p);
+  const auto centre = [&](const VehicleWheel& w) {
+    return design_centre(vehicle_body(d, w.wheel));
+  };
   const auto axle_x = [&](const VehicleAxle& a) {
     return 0.5 * (centre(a.left).x() + centre(a.right).x());
   };

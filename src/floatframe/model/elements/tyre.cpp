@@ -21,21 +21,12 @@
 
 #include "floatframe/description/rules.hpp"
 #include "floatframe/model/element_kind.hpp"
-#include "floatframe/model/road.hpp"
+#include "floatframe/model/rolling_contact.hpp"
 #include "floatframe/model/system_motion.hpp"
 
 namespace floatframe {
 
 namespace {
-
-struct TyreBranch {
-  std::int64_t held;
-  static std::int64_t of(std::size_t stretch, bool touches) noexcept {
-    return static_cast<std::int64_t>(2 * stretch + (touches ? 1 : 0));
-  }
-  std::size_t stretch() const noexcept { return static_cast<std::size_t>(held / 2); }
-  bool touches() const noexcept { return held % 2 != 0; }
-};
 
 /// Its signal: the height of a road that is lifted as a whole.
 constexpr std::size_t road_lift = 0;
@@ -54,12 +45,12 @@ Contact<S> contact(const PortsOf<S>& in) noexcept {
   const Tyre& t = in.template keys<Tyre>();
   const auto& centre = in.marker(0);
   const S x = centre.r.x() + in.origin.x();
-  const Road& road = in.model.roads[static_cast<std::size_t>(in.element.road)];
+  const Road& road = in.model.roads[in.element.road];
   Contact<S> c;
   c.x = value_of(x);
   const RoadPoint p = in.branch == free_branch
                           ? road_at(road, c.x)
-                          : road_at(road, TyreBranch{in.branch}.stretch(), c.x);
+                          : road_at(road, RollingBranch{in.branch}.stretch(), c.x);
   const S slope = chained(p.slope, p.curvature, x);
   c.h = centre.r.z() + in.origin.z() - chained(p.z, p.slope, x);
   c.rate = centre.v.z() - slope * centre.v.x();
@@ -72,31 +63,30 @@ Contact<S> contact(const PortsOf<S>& in) noexcept {
   c.n = {radial ? S(-slope * c.q) : zero, zero, radial ? c.q : one};
   c.f = (t.stiffness * (t.radius - c.h) - t.damping * c.rate) * c.q;
   c.touches =
-      in.branch == free_branch ? c.h < t.radius && c.f > 0.0 : TyreBranch{in.branch}.touches();
+      in.branch == free_branch ? c.h < t.radius && c.f > 0.0 : RollingBranch{in.branch}.touches();
   return c;
 }
 
 /// The branch of a position on a segment of the road.
 std::int64_t tyre_branch(const Ports& in, std::size_t stretch) noexcept {
   Ports there = in;
-  there.branch = TyreBranch::of(stretch, false);
+  there.branch = RollingBranch::of(stretch, false);
   const Contact<double> c = contact(there);
-  return TyreBranch::of(stretch, c.h < in.keys<Tyre>().radius && c.f > 0.0);
+  return RollingBranch::of(stretch, c.h < in.keys<Tyre>().radius && c.f > 0.0);
 }
 
 BranchSide tyre_side(const Ports& in) noexcept {
   const Tyre& t = in.keys<Tyre>();
-  const PiecewisePolynomial& road =
-      in.model.roads[static_cast<std::size_t>(in.element.road)].pieces;
+  const PiecewisePolynomial& road = in.model.roads[in.element.road].pieces;
   const Contact<double> c = contact(in);
   if (in.branch == free_branch) return {-1.0, tyre_branch(in, road.stretch_index(c.x))};
-  const TyreBranch held{in.branch};
+  const RollingBranch held{in.branch};
   const StretchSide s = stretch_side(road, held.stretch(), c.x);
   // The force expressed as a depth.
   const double push = c.f / (t.stiffness > 0.0 ? t.stiffness : 1.0);
   const double touch = held.touches() ? -push : std::min(t.radius - c.h, push);
   if (s.beyond > touch) return {s.beyond, tyre_branch(in, s.next)};
-  return {touch, TyreBranch::of(held.stretch(), !held.touches())};
+  return {touch, RollingBranch::of(held.stretch(), !held.touches())};
 }
 
 /// The contact point is r_w below the centre along e_z. None for a wheel that lies flat on the
@@ -277,7 +267,7 @@ void tyre_note(const Element& element, const SystemMotion& start, std::vector<st
   constexpr double high = 3.0, low = 0.6;  // relative to the radius
   const Tyre& t = std::get<Tyre>(*element.keys);
   const Vec3 centre = start.place(element.markers[0]);
-  const Road& road = start.model.roads[static_cast<std::size_t>(element.road)];
+  const Road& road = start.model.roads[element.road];
   const double height = centre.z() - road_at(road, centre.x()).z;
   if (height > low * t.radius && height < high * t.radius) return;
   const double gap = height - t.radius;
