@@ -60,7 +60,7 @@ Model iltis_at(const IltisPoint& p) {
   push.at = {"chassis", Vec3(0, 0, 0.57), std::nullopt, {}};
   push.magnitude.pieces = PiecewisePolynomial::polynomial({p.push});
   push.follows = true;
-  d.elements.push_back({"push", push, {}});
+  d.forces.push_back({"push", push, {}});
   return build_model(d);
 }
 

@@ -70,7 +70,7 @@ TEST_P(CrgReference, EveryRow) {
 
 INSTANTIATE_TEST_SUITE_P(Roads, CrgReference,
                          testing::Values("straight_bumps", "curved", "banked_sloped"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& file) { return std::string(file.param); });
 
 /// z, zx, ... by central differences of the height and of the slopes.
 void expect_derivatives(const CrgRoad& road, double x, double y) {

@@ -141,8 +141,10 @@ class TirReader {
       return error(ErrorCode::wrong_value, mark(end + 1),
                    fmt::format("found {} behind a section, expected the end of the line",
                                shown(line.substr(end + 1))));
-    if (section_.empty())
+    if (section_.empty()) {
+      section_ = "[]";  // what follows is in it
       return error(ErrorCode::missing, mark(begin), "found [], expected the name of a section");
+    }
     if (!sections_.insert(section_).second)
       note(fmt::format("line {}: section [{}] continues", line_, printable(section_)));
   }

@@ -120,6 +120,7 @@ ModelDescription rigged(const ModelDescription& description, const RiggedPoint& 
   if (point.input)
     std::ranges::find(d.inputs, d.vehicle->steering->input, &InputDescription::name)->initial =
         *point.input;
+  d.vehicle.reset();  // its tyres are gone
   return d;
 }
 
