@@ -43,7 +43,7 @@ class ElementStates {
   void give(const VecX& z) noexcept {
     assert(z.size() == z_.size());
     z_ = z;
-    follow_ = false;
+    follow_ = at_rest_ = false;
     unsolved_ = -1;
   }
   /// From now on by (1), beginning with the present values; `z_hat` must outlive this.
@@ -52,6 +52,7 @@ class ElementStates {
     weight_ = weight;
     z_hat_ = &z_hat;
     follow_ = count() > 0;
+    at_rest_ = weight == 0.0;
     unsolved_ = -1;
   }
   /// (1) at rest.
@@ -65,7 +66,9 @@ class ElementStates {
   }
   /// dz/ds of (2) of the states of an element; null: not at rest.
   const double* rest_slopes(std::size_t element) const noexcept {
-    return follow_ && weight_ == 0.0 ? rest_slopes_.data() + offsets_[element] : nullptr;
+    static constexpr double nothing = 0.0;  // at rest without states
+    if (!at_rest_) return nullptr;
+    return rest_slopes_.size() > 0 ? rest_slopes_.data() + offsets_[element] : &nothing;
   }
   /// The rates of such states at the last evaluation at rest; zero for all others.
   const VecX& drift() const noexcept { return drift_; }
@@ -74,7 +77,7 @@ class ElementStates {
   /// A change of them.
   void move(const VecX& dz) noexcept { z_ += dz; }
   /// From now on constant, with the present values.
-  void stop() noexcept { follow_ = false; }
+  void stop() noexcept { follow_ = at_rest_ = false; }
   bool follow() const noexcept { return follow_; }
   double weight() const noexcept {
     return follow_ ? weight_ : std::numeric_limits<double>::infinity();
@@ -115,6 +118,7 @@ class ElementStates {
   const VecX* z_hat_ = nullptr;
   double weight_ = 0.0;
   bool follow_ = false;
+  bool at_rest_ = false;  ///< following with the weight 0, or at rest without states
   int unsolved_ = -1;
 };
 

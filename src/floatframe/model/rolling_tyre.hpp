@@ -33,6 +33,7 @@
 #include <numbers>
 
 #include "floatframe/model/rolling_contact.hpp"
+#include "floatframe/model/rolling_values.hpp"
 
 namespace floatframe {
 
@@ -79,8 +80,11 @@ struct TyreLengths {
 /// S: double, Dual, DualNumber<1> and DualNumber<4>.
 
 namespace rolling {
-inline constexpr double blend = 0.01;        ///< b of (4)
-inline constexpr double steepest = 100.0;    ///< a of (4) does not exceed it
+/// Its states, and the kept numbers behind them: rolling_tyre_kind.hpp.
+inline constexpr int states = 2, kept = 5;
+inline constexpr int place = 0, angle = 3, rolled = 4;  ///< in the kept numbers
+inline constexpr double blend = 0.01;                   ///< b of (4)
+inline constexpr double steepest = 100.0;               ///< a of (4) does not exceed it
 inline constexpr double reach = 10.0;        ///< slip up to which a deflection follows in a slide
 inline constexpr double air_time = 0.01;     ///< [s]
 inline constexpr double rest_time = 3e-3;    ///< k_v/C without `rest_damping` [s]
@@ -242,33 +246,6 @@ RollingLoad<S> rolling_load(const PortsOf<S>& in, const RollingContact<S>& c) no
   return l;
 }
 
-/// The values of a rolling tyre behind its load, in the order of `rolling_values`.
-namespace rolling {
-enum Value : std::size_t {
-  longitudinal_force,
-  lateral_force,
-  overturning_moment,
-  rolling_moment,
-  aligning_moment,
-  longitudinal_slip,
-  slip_angle,
-  camber,
-  deflection,
-  loaded_radius,
-  effective_radius,
-  contact_x,
-  contact_y,
-  contact_z,
-  friction_use
-};
-}  // namespace rolling
-inline std::vector<std::string> rolling_values(const ElementKeys&) {
-  return {"load",           "longitudinal_force", "lateral_force",     "overturning_moment",
-          "rolling_moment", "aligning_moment",    "longitudinal_slip", "slip_angle",
-          "camber",         "deflection",         "loaded_radius",     "effective_radius",
-          "contact_x",      "contact_y",          "contact_z",         "friction_use"};
-}
-
 /// Rows of the normal force and of the two in the road (element_evaluation.hpp). `slopes`: over u,
 /// v, V_sx, V_sy.
 void add_rolling_rows(const Ports& in, const RollingContact<double>& c, double stiffness,
@@ -315,6 +292,14 @@ void put_rolling_forces(const RollingContact<S>& c, const RollingMotion<S>& m, c
   out.further[rolling::friction_use] = f.of.friction_use;
 }
 
+/// In the search for an equilibrium a wheel that rolls at the start, or that nothing holds at rest,
+/// has its normal force alone: what it gives along the road follows from the motion of the start.
+template <class S>
+bool rolls_at_rest(const PortsOf<S>& in) noexcept {
+  if (in.rest_slopes == nullptr) return false;
+  return in.element.states == 0 || value_of(in.states[rolling::states + rolling::rolled]) != 0.0;
+}
+
 template <class Law, class S>
 void rolling_tyre_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
   const auto& keys = in.template keys<typename Law::Keys>();
@@ -345,7 +330,12 @@ void rolling_tyre_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
     m.spin = c.v_cx / r_e;
   }
   const bool states = in.element.states > 0;
-  if constexpr (std::is_same_v<S, double>) {
+  if (rolls_at_rest(in)) {
+    out.wrench[0].F = l.load * c.n;
+    out.wrench[0].T = c.arm.cross(out.wrench[0].F);
+    if constexpr (std::is_same_v<S, double>)
+      add_rolling_rows(in, c, l.stiffness, keys.damping, keys.spinning, {}, out);
+  } else if constexpr (std::is_same_v<S, double>) {
     using T = DualNumber<4>;
     RollingMotion<T> at = m.template over<T>();
     if (keys.spinning) at.v_sx = T::variable(m.v_sx, 2);

@@ -15,7 +15,6 @@ namespace floatframe {
 namespace rolling {
 inline constexpr const char* sides[] = {"left", "right"};
 inline constexpr const char* contacts[] = {"point", "patch"};
-inline constexpr int states = 2, kept = 4;
 }  // namespace rolling
 
 /// The first keys of a rolling tyre with the struct L: where it is. They hold its only signal.
@@ -182,14 +181,22 @@ void rolling_start(const Ports& in, double* states) noexcept {
   double* kept = states + rolling::states;
   Eigen::Map<Vec3> place(kept);
   place = at.c.point;
-  kept[3] = angle_of_wheel(in, keys, at.c);
+  kept[rolling::angle] = angle_of_wheel(in, keys, at.c);
   const double speed = std::abs(at.c.v_cx);
+  kept[rolling::rolled] = speed < rolls ? 0.0 : 1.0;
   if (!at.touches || speed < rolls) return;
   const auto within = [](double x, double limit) { return std::clamp(x, -limit, limit); };
   const TyreLengths<double>& l = at.lengths;
   const double v_sx = keys.spinning ? at.c.v_cx - at.c.spin * at.r_e : 0.0;
   states[0] = within(-v_sx * l.sigma_x / speed, Law::falls ? l.sigma_x : l.limit_x);
   states[1] = within(-at.c.v_cy * l.sigma_y / speed, Law::falls ? l.sigma_y : l.limit_y);
+}
+
+/// The slips of the place that an equilibrium has been found at.
+template <class Law>
+void rolling_settle(const Ports& in, double* states) noexcept {
+  if (in.element.states > 0 && states[rolling::states + rolling::rolled] != 0.0)
+    rolling_start<Law>(in, states);
 }
 
 template <class Law>
@@ -201,7 +208,7 @@ Deflection rolling_deflection(const Ports& in, int state) noexcept {
   const Vec3 moved = at.c.point - Vec3(kept[0], kept[1], kept[2]);
   if (state == 1) return {-moved.dot(at.c.e_y), at.lengths.limit_y};
   if (!keys.spinning) return {};
-  const double turned = angle_of_wheel(in, keys, at.c) - kept[3];
+  const double turned = angle_of_wheel(in, keys, at.c) - kept[rolling::angle];
   return {-moved.dot(at.c.e_x) + at.r_e * turned, at.lengths.limit_x,
           2.0 * std::numbers::pi * at.r_e};
 }
@@ -266,6 +273,7 @@ constexpr ElementKind rolling_tyre_kind() {
   };
   kind.values = rolling_values;
   kind.start = rolling_start<Law>;
+  kind.settle = rolling_settle<Law>;
   kind.deflection = rolling_deflection<Law>;
   kind.lifted = "road";
   kind.dual = rolling_tyre_law<Law, Dual>;
