@@ -68,8 +68,8 @@ Gains gains(const FrequencyResponse& response, double v, double omega) {
   return {G(0, 0), G(1, 0), G(2, 0) / v - G(0, 0) / s};
 }
 
-/// Of yaw rate and lateral acceleration. Place and heading are free, so that s = 0 is an eigenvalue.
-/// These are means over a circle about it, in which the two outputs have no pole.
+/// Of yaw rate and lateral acceleration: means over a circle about s = 0, which is an eigenvalue,
+/// since place and heading are free, but no pole of these two.
 std::pair<double, double> steady_gains(const FrequencyResponse& response) {
   constexpr int points = 16;
   constexpr double radius = 0.02;  // the slowest root of the table is 0.12 1/s
