@@ -6,6 +6,32 @@
 #include "floatframe/model/element_kind.hpp"
 
 namespace floatframe::test {
+namespace {
+
+/// The tables of tyres depend on each other: those of a small one.
+void give_tables(TmeasyTyre& t, double stiffness) {
+  t.nominal_load = 10.0;
+  t.max_load = std::nullopt;
+  t.stiffness = Eigen::RowVector2d(stiffness, 1.1 * stiffness);
+  t.longitudinal.resize(2, 5);
+  t.longitudinal << 180.0, 11.0, 0.14, 8.0, 0.67, 380.0, 21.0, 0.14, 15.0, 0.67;
+  t.lateral = t.longitudinal;
+  t.trail.resize(2, 3);
+  t.trail << 0.18, 0.16, 0.96, 0.19, 0.2, 1.07;
+  t.longitudinal_stiffness = t.lateral_stiffness = 20.0 * stiffness;
+}
+void give_tables(CalspanTyre& t, double stiffness) {
+  t.stiffness = stiffness;
+  t.cornering = Eigen::RowVector3d(10.0, 14.0, 60.0);
+  t.camber = Eigen::RowVector2d(2.0, 90.0);
+  t.friction = Eigen::RowVector3d(-4e-3, 1.2, 1e-6);
+}
+void give_tables(MagicFormulaTyre& t, double) {
+  t.file = std::string(FLOATFRAME_TEST_DATA) + "/tyres/mf/a_205_60R15_mf61.tir";
+}
+void give_tables(RollingTyre&, double) {}
+
+}  // namespace
 
 ElementDescription random_force(ElementType type, const RandomForceEnds& ends,
                                 ExampleNumbers& numbers) {
@@ -114,6 +140,7 @@ ElementDescription random_force(ElementType type, const RandomForceEnds& ends,
         if constexpr (std::is_base_of_v<RollingTyre, std::remove_cvref_t<decltype(keys)>>) {
           keys.axis = Vec3::UnitY() + 0.3 * numbers.vector();  // it does not lie
           keys.contact = TyreContact::patch;                   // of which some numbers are
+          give_tables(keys, ends.stiffness);
         }
       },
       f.kind);

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "floatframe/model/element_keys.hpp"
+#include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/element_outputs.hpp"
 #include "support/mechanism_builder.hpp"
 #include "support/random_force.hpp"
@@ -321,6 +322,7 @@ std::optional<Mechanism> with_force(Mechanism m, ElementType type, unsigned seed
     d.forces.push_back(random_force(type, ends, numbers));
     for (const OutputType quantity : {OutputType::force, OutputType::length, OutputType::rate}) {
       OutputDescription o;
+      if (quantity != OutputType::force && !element_kind(type).measured) continue;
       o.name = d.forces.back().name + "." + output_type_name(quantity);
       o.type = quantity;
       o.entity = d.forces.back().name;

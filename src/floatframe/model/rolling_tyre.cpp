@@ -105,6 +105,11 @@ double angle_of_wheel(const Ports& in, const RollingTyre& keys,
   return std::atan2(spoke.dot(c.e_x), spoke.dot(c.e_z));
 }
 
+double on_either_side(ExampleNumbers& numbers, double least, double most) {
+  const double x = numbers(-1.0, 1.0);
+  return std::copysign(least + std::abs(x) * (most - least), x);
+}
+
 MarkerState rolling_example_wheel(RollingRegime regime, double radius, double depth,
                                   ExampleNumbers& numbers, ElementExample& x, RollingTyre& keys) {
   using R = RollingRegime;
@@ -125,7 +130,8 @@ MarkerState rolling_example_wheel(RollingRegime regime, double radius, double de
   const Vec3 place = b.r + x.origin;
   const SurfacePoint below = surface_at(road, place.x(), place.y());
   const Vec3 normal = Vec3(-below.zx, -below.zy, 1.0).normalized();
-  const double camber = regime == R::cambered ? numbers(0.1, 0.4) : numbers(-0.03, 0.03);
+  const double camber =
+      regime == R::cambered ? numbers(0.1, 0.4) : on_either_side(numbers, 0.01, 0.03);
   Mat3 frame = rotation_exp(std::atan2(normal.x(), normal.z()) * Vec3::UnitY()) *
                rotation_exp(numbers(-0.7, 0.7) * Vec3::UnitZ()) *
                rotation_exp(camber * Vec3::UnitX());
@@ -136,8 +142,10 @@ MarkerState rolling_example_wheel(RollingRegime regime, double radius, double de
   const double speed = regime == R::rests
                            ? numbers(0.1, 0.4)
                            : (regime == R::backwards ? -1.0 : 1.0) * numbers(1.0, 3.0);
-  const double slip = regime == R::slides ? numbers(0.5, 0.8) : numbers(-0.05, 0.05);
-  const double drift = regime == R::slides ? numbers(0.5, 0.8) : numbers(-0.05, 0.05);
+  const double slip =
+      regime == R::slides ? numbers(0.5, 0.8) : on_either_side(numbers, 0.005, 0.05);
+  const double drift =
+      regime == R::slides ? numbers(0.5, 0.8) : on_either_side(numbers, 0.005, 0.05);
   b.v = speed * (frame.col(0) + drift * frame.col(1)) + numbers(-0.05, 0.05) * normal;
   b.w = (speed / radius) * (1.0 - slip) * frame.col(1) + numbers.vector(0.05);
   return b;

@@ -291,6 +291,8 @@ constexpr ElementKind rolling_tyre_kind() {
   return kind;
 }
 
+/// A number of either sign that is not near zero.
+double on_either_side(ExampleNumbers& numbers, double least, double most);
 /// Where a wheel of this radius is in a regime, how it moves, and its road; sets the keys of
 /// RollingTyre. `depth`: the deflection [m].
 MarkerState rolling_example_wheel(RollingRegime regime, double radius, double depth,
@@ -312,8 +314,10 @@ ElementExample rolling_example(std::size_t number, ExampleNumbers& numbers, type
   const TyreLengths<double> l = Law::lengths(keys, data, load, 0.0, 1.0);
   const bool slides = regime == RollingRegime::slides;
   // Against the slip, so that the deflection grows where it slides.
-  x.states = {(slides ? numbers(-1.1, -0.9) : numbers(-0.3, 0.3)) * l.limit_x,
-              (slides ? numbers(-1.1, -0.9) : numbers(-0.3, 0.3)) * l.limit_y};
+  const auto part = [&] {
+    return slides ? numbers(-1.1, -0.9) : on_either_side(numbers, 0.05, 0.3);
+  };
+  x.states = {part() * l.limit_x, part() * l.limit_y};
   for (int i = 0; i < rolling::kept; ++i) x.states.push_back(0.0);
   x.state_weight = numbers(0.5, 200.0);
   return x;
