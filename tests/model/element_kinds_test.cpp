@@ -153,7 +153,7 @@ TEST_P(ElementOfKind, TangentAgainstFiniteDifferences) {
       compare(t.rates, jacobian([&](const VecX& d) { return results(faster(x, d)); }, n));
     }
     if (inner == 0) continue;
-    constexpr double fine = 0.2;  // deflections of tyres bend their laws within millimetres
+    constexpr double fine = 0.1;  // deflections of tyres bend their laws within millimetres
     compare(t.slopes,
             jacobian([&](const VecX& d) { return results(changed(x, fine * d)); }, inner) / fine);
     if (n > 0)
