@@ -148,10 +148,16 @@ int BlockLdlt::start_of(const Node& n, int block) const noexcept {
 }
 
 void BlockLdlt::set_zero() noexcept {
-  // Starting at the lane of the diagonal: entries above it are never read.
-  for (Node& n : nodes_)
+  constexpr Eigen::Index small = 240;  // 2 kB: at once is faster than column by column
+  for (Node& n : nodes_) {
+    if (n.matrix.size() <= small) {
+      n.matrix.setZero();
+      continue;
+    }
+    // Starting at the lane of the diagonal: entries above it are never read.
     for (Eigen::Index j = 0; j < n.matrix.cols(); ++j)
       n.matrix.col(j).tail(n.matrix.rows() - (j & ~3)).setZero();
+  }
 }
 
 MatX& BlockLdlt::front(int a, int b, int& offset_a, int& offset_b) noexcept {

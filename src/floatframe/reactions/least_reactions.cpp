@@ -360,9 +360,9 @@ void LeastReactions::multipliers(const Reactions& reactions, VecX& lambda) noexc
     for (int i = 0; i < n; ++i) {
       const WrenchRow& gi = *gradients[i];
       x[i] = -(gi.b.F.dot(wrench.force) + gi.b.T.dot(wrench.torque) / (length * length));
-      for (int j = 0; j < n; ++j) {
+      for (int j = 0; j <= i; ++j) {
         const WrenchRow& gj = *gradients[j];
-        A(i, j) = gi.b.F.dot(gj.b.F) + gi.b.T.dot(gj.b.T) / (length * length);
+        A(i, j) = A(j, i) = gi.b.F.dot(gj.b.F) + gi.b.T.dot(gj.b.T) / (length * length);
       }
     }
     solve_small(A, n, x);
