@@ -73,14 +73,14 @@ TEST(ValidateCalspanTyre, NamesWhatIsWrong) {
   keys.camber = MatX{{2.29, 18175.0}};
   keys.friction = MatX{{-4.64e-5, 1.216, 2.18e-11}};
   const auto t = [](D& d) -> CalspanTyre& { return only_force<CalspanTyre>(d); };
-  expect_table_errors(keys,
-                {{[&](D& d) { t(d).cornering(2) = 0.0; }, "forces.t.cornering: wrong_value"},
-                 {[&](D& d) { t(d).cornering(0) = -1.0; }, "forces.t.cornering: wrong_value"},
-                 {[&](D& d) { t(d).camber(1) = -1.0; }, "forces.t.camber: wrong_value"},
-                 {[&](D& d) { t(d).camber.resize(1, 3); }, "forces.t.camber: wrong_count"},
-                 {[&](D& d) { t(d).load_limit = 0.0; }, "forces.t.load_limit: out_of_range"},
-                 {[&](D& d) { t(d).skid_number = 0.0; }, "forces.t.skid_number: out_of_range"},
-                 {[&](D& d) { t(d).relaxation_y = 0.0; }, "forces.t.relaxation_y: out_of_range"}});
+  expect_table_errors(
+      keys, {{[&](D& d) { t(d).cornering(2) = 0.0; }, "forces.t.cornering: wrong_value"},
+             {[&](D& d) { t(d).cornering(0) = -1.0; }, "forces.t.cornering: wrong_value"},
+             {[&](D& d) { t(d).camber(1) = -1.0; }, "forces.t.camber: wrong_value"},
+             {[&](D& d) { t(d).camber.resize(1, 3); }, "forces.t.camber: wrong_count"},
+             {[&](D& d) { t(d).load_limit = 0.0; }, "forces.t.load_limit: out_of_range"},
+             {[&](D& d) { t(d).skid_number = 0.0; }, "forces.t.skid_number: out_of_range"},
+             {[&](D& d) { t(d).relaxation_y = 0.0; }, "forces.t.relaxation_y: out_of_range"}});
 }
 
 TEST(ValidateAerodynamicLoad, NamesWhatIsWrong) {
@@ -88,13 +88,13 @@ TEST(ValidateAerodynamicLoad, NamesWhatIsWrong) {
   keys.area = 2.0;
   keys.drag = 0.3;
   const auto t = [](D& d) -> AerodynamicLoad& { return only_force<AerodynamicLoad>(d); };
-  expect_table_errors(keys,
-                {{[&](D& d) { t(d).area = 0.0; }, "forces.t.area: out_of_range"},
-                 {[&](D& d) { t(d).drag = -0.1; }, "forces.t.drag: out_of_range"},
-                 {[&](D& d) { t(d).drag = 0.0; }, "incomplete"},
-                 {[&](D& d) { t(d).density = 0.0; }, "forces.t.density: out_of_range"},
-                 {[&](D& d) { t(d).axis_2 = Vec3::UnitZ(); }, "forces.t.axis_2: geometry"},
-                 {[&](D& d) { t(d).wind_direction.setZero(); }, "forces.t.wind_direction: "}});
+  expect_table_errors(
+      keys, {{[&](D& d) { t(d).area = 0.0; }, "forces.t.area: out_of_range"},
+             {[&](D& d) { t(d).drag = -0.1; }, "forces.t.drag: out_of_range"},
+             {[&](D& d) { t(d).drag = 0.0; }, "incomplete"},
+             {[&](D& d) { t(d).density = 0.0; }, "forces.t.density: out_of_range"},
+             {[&](D& d) { t(d).axis_2 = Vec3::UnitZ(); }, "forces.t.axis_2: geometry"},
+             {[&](D& d) { t(d).wind_direction.setZero(); }, "forces.t.wind_direction: "}});
 }
 
 }  // namespace

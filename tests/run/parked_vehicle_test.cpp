@@ -22,8 +22,8 @@ struct BrakeCase {
 };
 
 /// 400 kg on a wheel of 1.2 kg m2 and 0.3 m; uphill is along x, by the direction of gravity. The
-/// brake sticks by bristles; softer ones give way before the tyre does: ten times as soft, the way of
-/// a vehicle that slides from rest is 0.2 mm longer.
+/// brake sticks by bristles. Softer ones give way before the tyre does: ten times as soft, the way
+/// of a vehicle that slides from rest is 0.2 mm longer.
 std::string quarter_vehicle(const BrakeCase& x) {
   const double angle = std::atan(x.grade), load = car_mass * earth_gravity * std::cos(angle);
   return fmt::format(
