@@ -4,9 +4,11 @@
 
 #include <cmath>
 
+#include "floatframe/stepping/stepping.hpp"
 #include "floatframe/tyres/calspan.hpp"
 #include "floatframe/tyres/tmeasy.hpp"
 #include "support/completed_run.hpp"
+#include "support/contains.hpp"
 #include "support/model_text.hpp"
 
 namespace floatframe::test {
@@ -97,6 +99,26 @@ TEST(TmeasyTyre, HasTheForcesOfItsLawAtItsSlips) {
       EXPECT_NEAR(Fy, of.Fy, 1e-7 * Fz) << "steer " << steer << " kappa " << kappa;
       EXPECT_NEAR(Mz, of.Mz, 1e-7 * Fz) << "steer " << steer << " kappa " << kappa;
     }
+}
+
+TEST(RollingTyre, BeyondItsRoadEndsTheRunWithASentence) {
+  Simulation s(model_of(R"(
+bodies:
+  w: {rigid: {mass: 400, inertia: [10, 10, 10]}, position: [0, 0, 0.3]}
+joints:
+  s: {type: planar, child: w, at: [0, 0, 0.3], axis: y, axis_2: x, velocity: [5, 0, 0]}
+forces:
+  t: {type: linear_tyre, body: w, spinning: false, road: g, radius: 0.31, stiffness: 4.0e+5,
+    damping: 1000, slip_stiffness: 6.0e+4, cornering_stiffness: 5.0e+4, relaxation_x: 0.3,
+    relaxation_y: 0.5, friction: 1}
+roads:
+  g: {grid: {x: [-2, 0, 3], y: [-1, 1], z: [[0, 0], [0, 0], [0, 0]], outside: refuse}}
+simulation: {step: 0.001}
+)"));
+  while (s.time() < 1.0 && s.step()) {
+  }
+  EXPECT_NEAR(s.time(), 0.6, 1e-3);
+  EXPECT_TRUE(contains(s.failure(), "the road 'g' does not lead"));
 }
 
 }  // namespace

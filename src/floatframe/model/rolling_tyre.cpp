@@ -45,6 +45,15 @@ void add_rolling_rows(const Ports& in, const RollingContact<double>& c, double s
   row(c.e_y, std::max(0.0, k_y), std::max(0.0, D(1, 1)));
 }
 
+std::string complaint_of_rolling_tyre(const Ports& in) {
+  const Vec3 centre = in.marker(0).r + in.origin;
+  const Road& road = in.model.roads[in.element.road];
+  if (!std::isnan(surface_at(road, centre.x(), centre.y()).z)) return {};
+  return fmt::format(
+      "its wheel is at x = {:.4g} m, y = {:.4g} m, where the road '{}' does not lead", centre.x(),
+      centre.y(), road.name);
+}
+
 void validate_rolling_tyre(const ElementCheck& check) {
   if (check.wrong.contains("contact") ||
       check.word("contact") == static_cast<int>(TyreContact::patch))

@@ -307,6 +307,11 @@ void rolling_tyre_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
   const RollingContact<S> c = contact_of_tyre<Law>(in);
   out.length = c.height;
   out.rate = c.height_rate;
+  if (std::isnan(value_of(c.height))) {  // beyond its road: the step fails
+    out.force = std::numeric_limits<double>::quiet_NaN();
+    out.wrench[0].F = out.force * c.axis;
+    return rolling_in_air(in, out);
+  }
   const RollingLoad<S> l = rolling_load<Law>(in, c);
   if (c.found) {
     out.further[rolling::camber] = c.camber;

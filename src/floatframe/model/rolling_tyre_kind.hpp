@@ -117,6 +117,8 @@ Picture picture_of_rolling_tyre(const Element& element, const RollingTyre& keys,
 /// A wheel far above its road or deep in it, or one that lies.
 void note_rolling_tyre(const Element& element, const RollingTyre& keys, double radius,
                        const SystemMotion& start, std::vector<std::string>& notes);
+/// Of a wheel beyond its road; else empty.
+std::string complaint_of_rolling_tyre(const Ports& in);
 /// From the normal of its contact forwards [rad].
 double angle_of_wheel(const Ports& in, const RollingTyre& keys,
                       const RollingContact<double>& c) noexcept;
@@ -273,6 +275,7 @@ constexpr ElementKind rolling_tyre_kind() {
   };
   kind.values = rolling_values;
   kind.start = rolling_start<Law>;
+  kind.complaint = complaint_of_rolling_tyre;
   kind.settle = rolling_settle<Law>;
   kind.deflection = rolling_deflection<Law>;
   kind.lifted = "road";
