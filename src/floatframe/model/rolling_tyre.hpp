@@ -269,6 +269,15 @@ void rolling_in_air(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
   }
 }
 
+/// Beyond its road: the step fails.
+template <class S>
+void rolling_off_road(const PortsOf<S>& in, const RollingContact<S>& c,
+                      EffortsOf<S>& out) noexcept {
+  out.force = std::numeric_limits<double>::quiet_NaN();
+  out.wrench[0].F = out.force * c.axis;
+  rolling_in_air(in, out);
+}
+
 /// Wrench and values.
 template <class S>
 void put_rolling_forces(const RollingContact<S>& c, const RollingMotion<S>& m, const S& r_e,
@@ -307,11 +316,7 @@ void rolling_tyre_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
   const RollingContact<S> c = contact_of_tyre<Law>(in);
   out.length = c.height;
   out.rate = c.height_rate;
-  if (std::isnan(value_of(c.height))) {  // beyond its road: the step fails
-    out.force = std::numeric_limits<double>::quiet_NaN();
-    out.wrench[0].F = out.force * c.axis;
-    return rolling_in_air(in, out);
-  }
+  if (std::isnan(value_of(c.height))) return rolling_off_road(in, c, out);
   const RollingLoad<S> l = rolling_load<Law>(in, c);
   if (c.found) {
     out.further[rolling::camber] = c.camber;
