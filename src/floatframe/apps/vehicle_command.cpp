@@ -5,6 +5,7 @@
 
 #include "floatframe/apps/commands.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/thread_clock.hpp"
 #include "floatframe/description/inertia_choice.hpp"
 #include "floatframe/model_file/model_fingerprint.hpp"
 #include "floatframe/page/kept_run.hpp"
@@ -61,8 +62,9 @@ ManoeuvreReport drive(VehicleRun& run, const VehicleArguments& a, double speed) 
   return manoeuvre_report(model, lane_change(run, speed));
 }
 
-/// results.csv, report.html and summary.json, of the record.
-void save_record(VehicleRun& run, const VehicleArguments& a, const ModelFingerprint& used) {
+/// results.csv, report.html and summary.json, of the record; `taken` by the manoeuvre.
+void save_record(VehicleRun& run, const VehicleArguments& a, const ModelFingerprint& used,
+                 Nanoseconds taken) {
   if (a.out.empty()) return;
   KeptRun kept;
   kept.options = run.options();
@@ -75,6 +77,8 @@ void save_record(VehicleRun& run, const VehicleArguments& a, const ModelFingerpr
   summary.inertia = word(run.options().inertia);
   summary.step = run.options().step;
   summary.duration = run.now().time;
+  summary.cpu = 1e-9 * taken;
+  summary.real_time_factor = summary.cpu > 0.0 ? summary.duration / summary.cpu : 0.0;
   summary.start = run.start_report();
   kept.model_file = a.model.path;
   kept.settings = a.model.settings;
@@ -102,8 +106,9 @@ int drive_vehicle(const VehicleArguments& a) {
   const VehicleNeeds needs{
       .steering = true, .drive = true, .width = a.manoeuvre == "double-lane-change"};
   VehicleRun run(vehicle_setup(std::move(description), a.manoeuvre, needs, start_speed(a, speed)));
+  const Nanoseconds before = thread_cpu_clock();
   const ManoeuvreReport report = drive(run, a, speed);
-  save_record(run, a, used);
+  save_record(run, a, used, thread_cpu_clock() - before);
   print(a.json ? report.json : report.text);
   return exit_code::done;
 }

@@ -2,7 +2,7 @@
 // with the states of rolling_tyre.hpp; the formulas are those of tyres/magic_formula.hpp and
 // tyres/magic_radius.hpp.
 //   load        magic_load of the loaded radius R0 - d, camber and spin, without Fx and Fy: these
-//               change the loaded radius by less than 2 % of the deflection
+//               take the part (q_fcx F_x/F_z0)^2 + (q_fcy F_y/F_z0)^2 of the load
 //   lengths     K/C or by PTX and PTY, at least R0/20; stiffness at rest K/sigma;
 //               L = sigma slip of the peak, times the friction of the road
 //   energy      that of a tyre at rest
