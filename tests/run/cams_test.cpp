@@ -65,9 +65,9 @@ PiecewisePolynomial::Value lift_at(CamLaw law, double x) {
   return {0.0, 0.0, 0.0};
 }
 
-bool near_an_end(double x) {
+bool near_an_end(double x, double within) {
   for (const double end : {0.0, 0.75 * half_turn, half_turn, 1.75 * half_turn, 2.0 * half_turn})
-    if (std::abs(std::fmod(x, 2.0 * half_turn) - end) < 1e-6) return true;
+    if (std::abs(std::fmod(x, 2.0 * half_turn) - end) < within) return true;
   return false;
 }
 
@@ -84,13 +84,14 @@ class Cams : public ::testing::TestWithParam<CamCase> {
     return completed_run(d);
   }
   /// The largest differences of the acceleration and of the force from the closed form, relative to
-  /// the largest acceleration and force.
-  std::pair<double, double> errors(const RunResult& r, double of_lift = 1e-6) const {
+  /// the largest acceleration and force, but near the ends of a rise.
+  std::pair<double, double> errors(const RunResult& r, double of_lift = 1e-6,
+                                   double from_ends = 1e-6) const {
     constexpr double speed = 50.0;
     double error = 0.0, most = 0.0, error_F = 0.0, most_F = 0.0;
     for (std::size_t k = 0; k < r.table.rows(); ++k) {
       const double x = speed * r.table.at(k, 0);
-      if (near_an_end(x)) continue;
+      if (near_an_end(x, from_ends)) continue;
       const PiecewisePolynomial::Value s = lift_at(GetParam().law, x);
       const double a = speed * speed * s.ddf,
                    F = cam_mass * (a + 9.81) + cam_stiffness * s.f + cam_preload;
@@ -111,7 +112,8 @@ TEST_P(Cams, AccelerateTheFollowerAsTheClosedForm) {
   std::printf("[ figure ] cam by a law, error of the acceleration: %.1e\n", a);
 }
 
-// 720 points of 12 digits.
+// 720 points of 12 digits. Where the acceleration jumps, that of a cubic spline swings: by 2 -
+// sqrt(3) times as much from one point to the next, below a thousandth from the sixth.
 TEST_P(Cams, OfATableAccelerateTheFollowerToAThousandth) {
   std::string points;
   for (int k = 0; k <= 720; ++k) {
@@ -119,12 +121,11 @@ TEST_P(Cams, OfATableAccelerateTheFollowerToAThousandth) {
     points += fmt::format("{}[{:.12g}, {:.12g}]", k > 0 ? ", " : "", x,
                           k == 720 ? 0.0 : lift_at(GetParam().law, x).f);
   }
-  const bool jumps = GetParam().law == CamLaw::harmonic;  // its acceleration, at the dwells
-  const auto [a, F] = errors(turned("points: [" + points + "]"), jumps ? 1e-5 : 1e-6);
-  if (!jumps) {
-    EXPECT_LT(a, 1e-3);
-    EXPECT_LT(F, 1e-3);
-  }
+  const bool jumps = GetParam().law == CamLaw::harmonic;
+  const auto [a, F] = errors(turned("points: [" + points + "]"), jumps ? 1e-5 : 1e-6,
+                             jumps ? 6.01 * 2.0 * half_turn / 720 : 1e-6);
+  EXPECT_LT(a, 1e-3);
+  EXPECT_LT(F, 1e-3);
   std::printf("[ figure ] cam by points, error of the acceleration: %.1e\n", a);
 }
 
