@@ -100,7 +100,8 @@ class ElementSet {
             at < 0 ? nullptr : &angles_[at],
             z_.of(k) + model_.elements[k].states,
             nullptr,
-            z_.rest_slopes(k)};
+            z_.rest_slopes(k),
+            z_.frees_wheels()};
   }
   ElementStates& element_states() noexcept { return z_; }
   const ElementStates& element_states() const noexcept { return z_; }

@@ -57,10 +57,18 @@ class ElementStates {
   }
   /// (1) at rest.
   void rest() noexcept { follow(0.0, zero_); }
+  /// At rest nothing holds wheels that roll (Ports::free_wheels).
+  void free_wheels(bool on) noexcept { free_wheels_ = on; }
+  bool frees_wheels() const noexcept { return free_wheels_; }
   /// At rest deflections are zero at these ports.
   void begin_deflection(std::size_t element, const Ports& in) noexcept;
   /// (2), if states follow at rest.
   void deflect(std::size_t element, const Ports& in) noexcept;
+  /// What (2) gives at these ports, and its slope over s.
+  struct Deflected {
+    double z = 0.0, slope = 0.0;
+  };
+  Deflected deflected(std::size_t element, int state, const Ports& in) const noexcept;
   bool deflects(std::size_t element, int state) const noexcept {
     return rest_slopes(element) && deflects_[offsets_[element] + state];
   }
@@ -119,6 +127,7 @@ class ElementStates {
   double weight_ = 0.0;
   bool follow_ = false;
   bool at_rest_ = false;  ///< following with the weight 0, or at rest without states
+  bool free_wheels_ = false;
   int unsolved_ = -1;
 };
 

@@ -219,6 +219,40 @@ Best search(RelativeFormulation& f, StaticsEquations& statics, const VecX& q, in
   return best;
 }
 
+/// Some tyre turns its wheel at rest, which nothing may hold.
+bool turns_wheels(const Model& model) {
+  return std::ranges::any_of(model.elements, [](const Element& e) {
+    return e.states > 0 && element_kind(e.type).turns_wheels;
+  });
+}
+
+/// From the equilibrium of free wheels to that of the whole forces, if something holds the wheels:
+/// brakes, a slope. Else the wheels stay free; returns the torque that would roll them on, 0 if it
+/// is round-off.
+double hold_wheels(RelativeFormulation& f, StaticsEquations& statics, int& iterations, Best& best) {
+  ElementStates& z = f.element_states();
+  z.free_wheels(false);
+  VecX lambda = best.lambda;
+  statics.look(best.q, lambda);
+  Best there{best.q, lambda, z.values()};
+  there.offer(best.q, lambda, z.values(), statics);
+  if (there.done()) return 0.0;
+  const double left = there.accepted() ? 0.0 : largest(statics.r);
+  if (best.q.size() + lambda.size() > few_unknowns) {
+    approach_by_tangent(f, statics, best.q, lambda, iterations, there);
+  } else {
+    statics.find_mass(best.q, lambda);
+    statics.linearise(best.q, lambda, false);
+    if (statics.can_balance()) approach(f, statics, best.q, lambda, iterations, there);
+  }
+  if (there.accepted() && there.size < best.size + 1e-9 * there.weight) {
+    best = there;
+    return 0.0;
+  }
+  z.free_wheels(true);
+  return left;
+}
+
 /// The loads of friction from reactions at q, as if everything were held there.
 void begin_loads(RelativeFormulation& f, StaticsEquations& statics, const VecX& q,
                  LoadIteration& loads) {
@@ -258,6 +292,8 @@ Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
   kinematics_at(f, 0.0, q, VecX::Zero(f.velocities()));
   f.begin_deflections();
   const RestingStates resting(f, true);
+  const bool turning = turns_wheels(f.model());
+  f.element_states().free_wheels(turning);
   Equilibrium e;
   e.lambda = VecX::Zero(f.constraints());
   StaticsEquations statics(f);
@@ -277,6 +313,7 @@ Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
       best = search(f, statics, q, e.iterations);
     }
   }
+  if (turning && best.accepted()) e.turning = hold_wheels(f, statics, e.iterations, best);
   if (loads.needed()) follow_loads(f, statics, loads, e.iterations, best);
   q = best.q;
   e.lambda = best.lambda;
@@ -299,9 +336,14 @@ Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
   return e;
 }
 
-std::vector<std::string> equilibrium_notes(RelativeFormulation& f) {
+std::vector<std::string> equilibrium_notes(RelativeFormulation& f, const Equilibrium& e) {
   const std::vector<Element>& elements = f.model().elements;
   std::vector<std::string> notes;
+  if (e.turning > 0.0)
+    notes.push_back(
+        fmt::format("nothing holds the wheels: the equilibrium is without the torque about their "
+                    "axes of aligning moments at camber, up to {:.3g} N m, which rolls them on",
+                    e.turning));
   for (std::size_t k = 0; k < elements.size(); ++k) {
     const std::int64_t branch = element_kind(elements[k].type).resting_branch;
     if (branch != free_branch && f.branch_side(k).next != branch)

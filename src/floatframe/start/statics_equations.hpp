@@ -13,8 +13,7 @@ namespace floatframe {
 /// Residual, tangent and constraints of the statics at q.
 class StaticsEquations {
  public:
-  explicit StaticsEquations(RelativeFormulation& f)
-      : f_(f), own_weight_(std::max(1e-6, f.total_mass() * f.model().gravity.norm())) {
+  explicit StaticsEquations(RelativeFormulation& f) : f_(f) {
     at_.v = VecX::Zero(f.velocities());
     penalty_mass_ = default_penalty_mass(f.model(), Coordinates::relative);
   }
@@ -32,7 +31,7 @@ class StaticsEquations {
   void look(const VecX& q, const VecX& lambda) {
     r = evaluate(q, lambda);
     phi = f_.constraint_values();
-    weight = acting();
+    weight = largest_load(f_);
   }
   /// The same with J and K. `first`: least-squares multipliers instead of the given ones.
   void linearise(const VecX& q, VecX& lambda, bool first) {
@@ -43,7 +42,7 @@ class StaticsEquations {
       lambda = LeastNorm(J.transpose()).solve(VecX(-r));
       r = evaluate(q, lambda);
     }
-    weight = acting();
+    weight = largest_load(f_);
     at_.q = q;
     at_.lambda = lambda;
     K = stiffness_matrix(f_, at_);
@@ -90,31 +89,24 @@ class StaticsEquations {
   /// Solves (mu M + K) dx + K_i di + J^T dlambda = -r, J dx = -phi, D dx + D_i di = -drift, i the
   /// integrals; at most 0.2 in any coordinate. False if the solution is not finite.
   bool step(double mu, VecX& dx, VecX& dlambda) {
-    const Eigen::Index nv = r.size(), ni = std::ssize(integrals_), nc = phi.size() + ni;
-    MatX T = MatX::Zero(nv + nc, nv + nc);
-    T.topLeftCorner(nv, nv) = K + mu * mass_;
-    T.block(0, nv, nv, phi.size()) = J.transpose();
-    T.block(nv, 0, phi.size(), nv) = J;
-    T.topRightCorner(nv, ni) = of_integrals_.topRows(nv);
-    T.bottomRightCorner(ni, ni) = of_integrals_.bottomRows(ni);
-    T.bottomLeftCorner(ni, nv) = drift_rows_;
-    VecX b(nv + nc);
-    b.head(nv) = -r;
-    b.segment(nv, phi.size()) = -phi;
-    for (Eigen::Index i = 0; i < ni; ++i) b[nv + phi.size() + i] = -drift[integrals_[i]];
-    const VecX d = equilibration(T);
-    const MatX Td = d.asDiagonal() * T * d.asDiagonal();
-    const VecX scaled = d.cwiseProduct(b);
-    VecX x = nv + nc <= 700 ? LeastNorm(Td, 1e-14).solve(scaled) : VecX(lu_solve(Td, scaled));
-    x = d.cwiseProduct(x).eval();
-    const double length = largest(x.head(nv));
+    const Eigen::Index nv = r.size();
+    Solution s = solve(mu);
+    const double length = largest(s.x.head(nv));
     if (!std::isfinite(length)) return false;
-    x *= length > 0.2 ? 0.2 / length : 1.0;
-    dx = x.head(nv);
-    dlambda = x.segment(nv, phi.size());
+    s.x *= length > longest ? longest / length : 1.0;
+    dx = s.x.head(nv);
+    dlambda = s.x.segment(nv, phi.size());
     change_ = VecX::Zero(drift.size());
-    for (Eigen::Index i = 0; i < ni; ++i) change_[integrals_[i]] = x[nv + phi.size() + i];
+    for (Eigen::Index i = 0; i < std::ssize(integrals_); ++i)
+      change_[integrals_[i]] = s.x[nv + phi.size() + i];
     return true;
+  }
+  /// A small motion balances what is left at the state of `linearise`: no part of it is along a
+  /// direction that nothing holds.
+  bool can_balance() const {
+    constexpr double enough = 1e-6;
+    const Solution s = solve(0.0);
+    return s.left < enough && largest(s.x.head(r.size())) < longest;
   }
   /// The change of integrals in the last `step`.
   void move_integrals() {
@@ -127,15 +119,6 @@ class StaticsEquations {
   double weight = 0.0;  ///< the largest acting force, the reference of the imbalance [N]
 
  private:
-  /// Magnitude of the weight and the forces at the state of `f`.
-  double acting() const {
-    double most = own_weight_;
-    for (std::size_t k = 0; k < f_.model().elements.size(); ++k)
-      for (const Wrench& w : f_.effort(static_cast<int>(k)).wrench)
-        most = std::max({most, w.F.norm(), w.T.norm()});
-    return most;
-  }
-
   /// Columns and rows of the states that keep their values but see the coordinates.
   void find_integrals(const VecX& q, const VecX& lambda) {
     const ElementStates& z = f_.element_states();
@@ -183,6 +166,32 @@ class StaticsEquations {
     }
     r = evaluate(q, lambda);
   }
+
+  static constexpr double longest = 0.2;  ///< of a step, in any coordinate [m, rad]
+  struct Solution {
+    VecX x;             ///< dx, dlambda, di
+    double left = 0.0;  ///< of the right-hand side, relative to it
+  };
+  Solution solve(double mu) const {
+    const Eigen::Index nv = r.size(), ni = std::ssize(integrals_), nc = phi.size() + ni;
+    MatX T = MatX::Zero(nv + nc, nv + nc);
+    T.topLeftCorner(nv, nv) = K + mu * mass_;
+    T.block(0, nv, nv, phi.size()) = J.transpose();
+    T.block(nv, 0, phi.size(), nv) = J;
+    T.topRightCorner(nv, ni) = of_integrals_.topRows(nv);
+    T.bottomRightCorner(ni, ni) = of_integrals_.bottomRows(ni);
+    T.bottomLeftCorner(ni, nv) = drift_rows_;
+    VecX b(nv + nc);
+    b.head(nv) = -r;
+    b.segment(nv, phi.size()) = -phi;
+    for (Eigen::Index i = 0; i < ni; ++i) b[nv + phi.size() + i] = -drift[integrals_[i]];
+    const VecX d = equilibration(T);
+    const MatX Td = d.asDiagonal() * T * d.asDiagonal();
+    const VecX scaled = d.cwiseProduct(b);
+    const VecX x = nv + nc <= 700 ? LeastNorm(Td, 1e-14).solve(scaled) : VecX(lu_solve(Td, scaled));
+    const double whole = largest(scaled);
+    return {d.cwiseProduct(x), whole > 0.0 ? largest(VecX(Td * x - scaled)) / whole : 0.0};
+  }
   double reach_of_drift(Eigen::Index i) const {
     return i < reach_of_drift_.size() ? reach_of_drift_[i] : 0.0;
   }
@@ -191,7 +200,7 @@ class StaticsEquations {
   std::vector<Eigen::Index> integrals_;  ///< their places among the states
   MatX of_integrals_, drift_rows_;       ///< d(r, drift)/d(integrals), d(drift)/dx
   VecX reach_of_drift_, change_;
-  double own_weight_, penalty_mass_;
+  double penalty_mass_;
   State at_;  ///< at rest
   MatX mass_;
 };
