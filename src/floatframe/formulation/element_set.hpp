@@ -100,8 +100,7 @@ class ElementSet {
             at < 0 ? nullptr : &angles_[at],
             z_.of(k) + model_.elements[k].states,
             nullptr,
-            z_.rest_slopes(k),
-            z_.frees_wheels()};
+            z_.rest_slopes(k)};
   }
   ElementStates& element_states() noexcept { return z_; }
   const ElementStates& element_states() const noexcept { return z_; }

@@ -57,9 +57,6 @@ class ElementStates {
   }
   /// (1) at rest.
   void rest() noexcept { follow(0.0, zero_); }
-  /// At rest nothing holds wheels that roll (Ports::free_wheels).
-  void free_wheels(bool on) noexcept { free_wheels_ = on; }
-  bool frees_wheels() const noexcept { return free_wheels_; }
   /// At rest deflections are zero at these ports.
   void begin_deflection(std::size_t element, const Ports& in) noexcept;
   /// (2), if states follow at rest.
@@ -127,7 +124,6 @@ class ElementStates {
   double weight_ = 0.0;
   bool follow_ = false;
   bool at_rest_ = false;  ///< following with the weight 0, or at rest without states
-  bool free_wheels_ = false;
   int unsolved_ = -1;
 };
 

@@ -147,7 +147,6 @@ struct PortsOf {
   /// At rest, where states follow deflections (`Deflection`): the slope of each state over that of
   /// its element; null: not at rest.
   const double* rest_slopes = nullptr;
-  bool free_wheels = false;  ///< at rest: nothing holds the wheels of the model
 
   S input(std::size_t i) const noexcept {
     S value = inputs[i];

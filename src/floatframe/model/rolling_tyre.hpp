@@ -278,12 +278,10 @@ void rolling_off_road(const PortsOf<S>& in, const RollingContact<S>& c,
   rolling_in_air(in, out);
 }
 
-/// Wrench and values. `free`: M_z n does not turn the wheel, which at rest with camber would roll
-/// it on: there is no equilibrium then.
+/// Wrench and values.
 template <class S>
 void put_rolling_forces(const RollingContact<S>& c, const RollingMotion<S>& m, const S& r_e,
-                        bool spinning, bool free, const RollingForces<S>& f,
-                        EffortsOf<S>& out) noexcept {
+                        bool spinning, const RollingForces<S>& f, EffortsOf<S>& out) noexcept {
   using V = Eigen::Matrix<S, 3, 1>;
   using std::atan2;
   S F_x = f.of.F_x;
@@ -292,7 +290,6 @@ void put_rolling_forces(const RollingContact<S>& c, const RollingMotion<S>& m, c
   const V F = F_x * c.e_x + f.of.F_y * c.e_y + out.force * c.n;
   V T = c.arm.cross(F) + f.of.M_x * c.e_x + M_y * c.e_y + f.of.M_z * c.n;
   if (!spinning) T -= S(T.dot(c.axis)) * c.axis;
-  if (spinning && free) T -= S(f.of.M_z * c.n.dot(c.axis)) * c.axis;
   out.wrench[0] = {F, T};
   out.further[rolling::longitudinal_force] = F_x;
   out.further[rolling::lateral_force] = f.of.F_y;
@@ -342,7 +339,7 @@ void rolling_tyre_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
     m.v_sx = 0.0;
     m.spin = c.v_cx / r_e;
   }
-  const bool states = in.element.states > 0, free = in.rest_slopes && in.free_wheels;
+  const bool states = in.element.states > 0;
   if (rolls_at_rest(in)) {
     out.wrench[0].F = l.load * c.n;
     out.wrench[0].T = c.arm.cross(out.wrench[0].F);
@@ -364,7 +361,7 @@ void rolling_tyre_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
         f.u_rate.v,
         f.v_rate.v,
         f.energy.v};
-    put_rolling_forces(c, m, r_e, keys.spinning, free, value, out);
+    put_rolling_forces(c, m, r_e, keys.spinning, value, out);
     out.energy = value.energy;
     if (states) {
       out.state_rates[0] = value.u_rate;
@@ -378,7 +375,7 @@ void rolling_tyre_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
   } else {
     const RollingForces<S> f =
         rolling_forces<Law, S>(keys, data, m, states ? in.states : nullptr, in.rest_slopes);
-    put_rolling_forces(c, m, r_e, keys.spinning, free, f, out);
+    put_rolling_forces(c, m, r_e, keys.spinning, f, out);
     out.energy = f.energy;
     if (states) {
       out.state_rates[0] = f.u_rate;

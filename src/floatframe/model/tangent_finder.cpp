@@ -52,7 +52,7 @@ void TangentFinder::evaluate(const Ports& in, const double* input_changes) noexc
   element_kind(in.element.type)
       .dual({in.model, in.element, markers_.data(), in.origin, in.t, in.reference_angle, in.inputs,
              in.branch, states_.data(), in.state_weight, links_.data(), in.angles, in.kept,
-             input_changes, in.rest_slopes, in.free_wheels},
+             input_changes, in.rest_slopes},
             efforts_);
 }
 

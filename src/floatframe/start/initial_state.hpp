@@ -30,7 +30,7 @@ namespace floatframe {
 struct Equilibrium {
   int iterations = 0;
   double residual = 0.0;
-  double turning = 0.0;  ///< torque that would roll wheels which nothing holds; left out [N m]
+  double rolling = 0.0;  ///< what would roll a vehicle that nothing holds; left out [N]
   VecX lambda;
 };
 /// Throws RunError naming the coordinate with the largest unbalanced force.
