@@ -52,16 +52,22 @@ void ElementStates::begin_deflection(std::size_t element, const Ports& in) noexc
   }
 }
 
+ElementStates::Deflected ElementStates::deflected(std::size_t element, int state,
+                                                  const Ports& in) const noexcept {
+  const Deflection now = element_kind(model_.elements[element].type).deflection(in, state);
+  double moved = now.place - places_[offsets_[element] + state];
+  if (now.period > 0.0) moved -= now.period * std::round(moved / now.period);
+  return {std::clamp(moved, -now.largest, now.largest), std::abs(moved) < now.largest ? 1.0 : 0.0};
+}
+
 void ElementStates::deflect(std::size_t element, const Ports& in) noexcept {
   if (!follow_ || weight_ > 0.0) return;
   for (int i = 0; i < model_.elements[element].states; ++i) {
     const int at = offsets_[element] + i;
     if (!deflects_[at]) continue;
-    const Deflection now = element_kind(model_.elements[element].type).deflection(in, i);
-    double moved = now.place - places_[at];
-    if (now.period > 0.0) moved -= now.period * std::round(moved / now.period);
-    z_[at] = std::clamp(moved, -now.largest, now.largest);  // (2)
-    rest_slopes_[at] = std::abs(moved) < now.largest ? 1.0 : 0.0;
+    const Deflected now = deflected(element, i, in);
+    z_[at] = now.z;  // (2)
+    rest_slopes_[at] = now.slope;
   }
 }
 

@@ -61,6 +61,11 @@ class ElementStates {
   void begin_deflection(std::size_t element, const Ports& in) noexcept;
   /// (2), if states follow at rest.
   void deflect(std::size_t element, const Ports& in) noexcept;
+  /// What (2) gives at these ports, and its slope over s.
+  struct Deflected {
+    double z = 0.0, slope = 0.0;
+  };
+  Deflected deflected(std::size_t element, int state, const Ports& in) const noexcept;
   bool deflects(std::size_t element, int state) const noexcept {
     return rest_slopes(element) && deflects_[offsets_[element] + state];
   }

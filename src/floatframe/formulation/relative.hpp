@@ -121,7 +121,6 @@ class RelativeFormulation final : public Formulation {
   }
   VecX mass_diagonal() const override;
   void add_tree_wrenches(Reactions& reactions) const noexcept override;
-  double total_mass() const noexcept;
 
  private:
   void fill_poses(SystemMotion& motion) const noexcept override;

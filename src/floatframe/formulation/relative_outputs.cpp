@@ -89,10 +89,4 @@ BodyCoordinates RelativeFormulation::body_coordinates(int body) const {
   return {b.iq, b.iyq - b.iq + b.nm, b.iyq, b.iv, b.nj + b.nm, b.iy, b.parent};
 }
 
-double RelativeFormulation::total_mass() const noexcept {
-  double m = 0.0;
-  for (const BodyTerms& t : terms_) m += t.inertia.data().m;
-  return m;
-}
-
 }  // namespace floatframe

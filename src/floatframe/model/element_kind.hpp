@@ -154,6 +154,7 @@ struct ElementKind {
   bool contact = false;  ///< with a restitution at the speed of a touch, which is its first kept
                          ///< number, and the key `least_speed`
   bool profile_only = false;  ///< of roads it feels the profile alone: none with width
+  bool rolls = false;         ///< at rest it may roll a vehicle that nothing holds
   /// `lifted_by`: the last signal, which belongs to no key, lifts it.
   const char* lifted = nullptr;
   /// Why its force is not a number there; for messages.

@@ -278,6 +278,7 @@ constexpr ElementKind rolling_tyre_kind() {
   kind.complaint = complaint_of_rolling_tyre;
   kind.settle = rolling_settle<Law>;
   kind.deflection = rolling_deflection<Law>;
+  kind.rolls = true;
   kind.lifted = "road";
   kind.dual = rolling_tyre_law<Law, Dual>;
   kind.side = rolling_side<Law>;

@@ -5,6 +5,7 @@
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/model/element_keys.hpp"
+#include "floatframe/start/linearization.hpp"
 #include "floatframe/start/small_motions.hpp"
 
 namespace floatframe {
@@ -125,6 +126,29 @@ Borders borders(Formulation& f, const MatX& J, const MatX& V) {
   return {K, C};
 }
 
+/// A state that follows a deflection at rest. `number`: its place among the states of the system.
+struct DeflectedState {
+  std::size_t element;
+  int state;
+  Eigen::Index number;
+};
+std::vector<DeflectedState> deflected_states(const Formulation& f) {
+  std::vector<DeflectedState> out;
+  Eigen::Index number = 0;
+  for (std::size_t k = 0; k < f.model().elements.size(); ++k)
+    for (int i = 0; i < f.model().elements[k].states; ++i, ++number)
+      if (f.element_states().deflects(k, i)) out.push_back({k, i, number});
+  return out;
+}
+VecX places_of(const Formulation& f, const std::vector<DeflectedState>& states) {
+  VecX out(std::ssize(states));
+  for (std::size_t i = 0; i < states.size(); ++i)
+    out[i] = f.element_states()
+                 .deflected(states[i].element, states[i].state, f.ports(states[i].element))
+                 .z;
+  return out;
+}
+
 }  // namespace
 
 ElementTangents::ElementTangents(Formulation& f, const State& s, const VecX& reach) : f_(f) {
@@ -167,24 +191,26 @@ ElementTangents::ElementTangents(Formulation& f, const State& s, const VecX& rea
   exact = true;
 }
 
-MatX ElementTangents::at_rest() const {
+MatX ElementTangents::at_rest(const State& s, double step) const {
   const Eigen::Index nv = f_.velocities(), ns = K.rows() - nv;
-  if (ns == 0) return K;
+  if (ns == 0 || !exact) return K.topLeftCorner(nv, nv);
   MatX slopes = K.bottomRightCorner(ns, ns), follow = K.bottomLeftCorner(ns, nv);
-  const auto hold = [&](Eigen::Index i) {
-    if (!slopes.row(i).isZero(0.0)) return;
+  for (Eigen::Index i = 0; i < ns; ++i) {
+    if (!slopes.row(i).isZero(0.0)) continue;
     slopes(i, i) = 1.0;
     follow.row(i).setZero();
-  };
-  Eigen::Index at = 0;
-  for (std::size_t k = 0; k < f_.model().elements.size(); ++k) {
-    const int states = f_.model().elements[k].states;
-    for (int i = 0; i < states; ++i) {
-      hold(at + i);
-      // Their rates are dz/ds times that of the place (Deflection).
-      if (f_.element_states().deflects(k, i)) follow.row(at + i) = C.row(nv + at + i).head(nv);
-    }
-    at += states;
+  }
+  const std::vector<DeflectedState> deflected = deflected_states(f_);
+  if (!deflected.empty()) {
+    // What they follow need not be the integral of a rate: r_e of a tyre changes with its load.
+    VecX q = s.q;
+    const MatX moved = central_differences(nv, step, [&](const VecX& x) {
+      f_.retract(s.q, x, q);
+      kinematics_at(f_, s.t, q, s.v);
+      return places_of(f_, deflected);
+    });
+    for (std::size_t i = 0; i < deflected.size(); ++i)
+      follow.row(deflected[i].number) = -moved.row(i);
   }
   return K.topLeftCorner(nv, nv) - K.topRightCorner(nv, ns) * lu_solve(slopes, follow);
 }

@@ -29,9 +29,9 @@ class ElementTangents {
 
   MatX K, C;           ///< nv + ns; parts of dr/dx and dr/dv
   bool exact = false;  ///< the efforts are held
-  /// K of the coordinates alone, with states that follow at rest, deflections their places; others
-  /// without an equation there are constant.
-  MatX at_rest() const;
+  /// K of the coordinates alone at the state s, with states that follow at rest, deflections their
+  /// places by central differences of this step; others without an equation there are constant.
+  MatX at_rest(const State& s, double step) const;
 
  private:
   Formulation& f_;

@@ -19,9 +19,10 @@ namespace {
 
 /// The best state of a search so far.
 struct Best {
-  VecX q, lambda, z;
+  VecX q, lambda, z, push;
   double size = std::numeric_limits<double>::infinity();
   double weight = 0.0;
+  double rolling = 0.0;  ///< what would roll the model on, if there was such a balance [N]
   int stalled = 0;
   void offer(const VecX& at, const VecX& multipliers, const VecX& states,
              const StaticsEquations& there) {
@@ -29,6 +30,7 @@ struct Best {
       q = at;
       lambda = multipliers;
       z = states;
+      push = there.push;
       size = there.size();
       weight = there.weight;
       stalled = 0;
@@ -93,7 +95,7 @@ void approach(RelativeFormulation& f, StaticsEquations& statics, VecX q, VecX la
     previous = size;
     if (!statics.step(mu, dx, dlambda)) return;
     f.retract(q, dx, q1);
-    statics.move_integrals();
+    statics.move_others();
     q = q1;
     lambda += dlambda;
   }
@@ -173,9 +175,15 @@ void check_size(const RelativeFormulation& f) {
 
 namespace {
 
-[[noreturn]] void throw_out_of_balance(const RelativeFormulation& f, const VecX& r,
+[[noreturn]] void throw_out_of_balance(const RelativeFormulation& f, const VecX& r, double rolling,
                                        int iterations) {
   Eigen::Index worst = 0;
+  if (rolling > 0.0)
+    throw RunError(
+        ErrorCode::no_equilibrium,
+        fmt::format("no static equilibrium found: nothing holds the wheels, {:.3g} N (or "
+                    "N m) roll the model on",
+                    rolling));
   if (r.size() == 0)
     throw RunError(ErrorCode::no_equilibrium, "no static equilibrium found: nothing can move");
   r.cwiseAbs().maxCoeff(&worst);
@@ -199,23 +207,49 @@ bool hold_resting_branches(RelativeFormulation& f, bool on) {
   return some;
 }
 
+/// Some tyre may roll its vehicle on, which nothing may hold.
+bool rolls(const Model& model) {
+  return std::ranges::any_of(
+      model.elements, [](const Element& e) { return e.states > 0 && element_kind(e.type).rolls; });
+}
+
+/// What may roll a vehicle on in its equilibrium, as a part of the largest load.
+constexpr double most_rolling = 1e-3;
+
 Best search(RelativeFormulation& f, StaticsEquations& statics, const VecX& q, int& iterations) {
   const VecX lambda = VecX::Zero(f.constraints()), z = f.element_states().values();
   const auto begin = [&] {
     f.element_states().give(z);
     f.element_states().rest();
-    return Best{q, lambda, z};
+    statics.push.setZero();
+    return Best{q, lambda, z, statics.push};
   };
+  statics.let_go();
   Best best = begin();
   approach_by_tangent(f, statics, q, lambda, iterations, best);
   if (!best.done()) {
     best = begin();
     statics.find_mass(q, lambda);
+    if (rolls(f.model())) statics.hold_free(q, lambda);
     approach(f, statics, q, lambda, iterations, best);
+    // What is held where more is free than at the equilibrium, as by wheels in the air.
+    if (best.accepted() && statics.holding(best.push) > 1e-9 * best.weight) {
+      statics.hold_free(best.q, best.lambda);
+      best = {best.q, best.lambda, best.z, statics.push};
+      approach(f, statics, VecX(best.q), VecX(best.lambda), iterations, best);
+    }
+    const double rolling = best.accepted() ? statics.holding(best.push) : 0.0;
+    if (statics.released() && !(best.accepted() && rolling < most_rolling * best.weight)) {
+      statics.let_go();
+      best = begin();
+      best.rolling = rolling;
+      approach(f, statics, q, lambda, iterations, best);
+    }
   }
   if (!best.accepted()) descend(f, statics, q, lambda, iterations, best);
   f.element_states().give(best.z);
   f.element_states().rest();
+  statics.push = best.push;
   return best;
 }
 
@@ -280,6 +314,8 @@ Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
   if (loads.needed()) follow_loads(f, statics, loads, e.iterations, best);
   q = best.q;
   e.lambda = best.lambda;
+  e.rolling = statics.holding(best.push);
+  if (e.rolling < 1e-7 * best.weight) e.rolling = 0.0;
   const auto evaluate = [&](const VecX& at) { return statics.evaluate(at, e.lambda); };
   e.residual = largest(evaluate(q));
   if (!statics.integrates())
@@ -295,13 +331,18 @@ Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q) {
     throw RunError(ErrorCode::no_equilibrium,
                    fmt::format("no static equilibrium found: the states of {} do not come to rest",
                                element_name(f.model().elements[drifting])));
-  if (!best.accepted()) throw_out_of_balance(f, r, e.iterations);
+  if (!best.accepted()) throw_out_of_balance(f, r, best.rolling, e.iterations);
   return e;
 }
 
-std::vector<std::string> equilibrium_notes(RelativeFormulation& f) {
+std::vector<std::string> equilibrium_notes(RelativeFormulation& f, const Equilibrium& e) {
   const std::vector<Element>& elements = f.model().elements;
   std::vector<std::string> notes;
+  if (e.rolling > 0.0)
+    notes.push_back(
+        fmt::format("nothing holds the wheels: the equilibrium leaves out {:.3g} N (or N m) that "
+                    "roll the model on, of bent tyres with toe or camber",
+                    e.rolling));
   for (std::size_t k = 0; k < elements.size(); ++k) {
     const std::int64_t branch = element_kind(elements[k].type).resting_branch;
     if (branch != free_branch && f.branch_side(k).next != branch)

@@ -60,7 +60,7 @@ State relative_start(RelativeFormulation& f, Start start, StartReport* report) {
   if (start == Start::equilibrium) {
     const Equilibrium e = find_equilibrium(f, state.q);
     if (report != nullptr)
-      for (std::string& note : equilibrium_notes(f)) report->notes.push_back(std::move(note));
+      for (std::string& note : equilibrium_notes(f, e)) report->notes.push_back(std::move(note));
     if (report != nullptr)
       if (std::string note = unstable_equilibrium(f, state.q, e.lambda); !note.empty())
         report->notes.push_back(std::move(note));

@@ -30,13 +30,14 @@ namespace floatframe {
 struct Equilibrium {
   int iterations = 0;
   double residual = 0.0;
+  double rolling = 0.0;  ///< what would roll a vehicle that nothing holds; left out [N]
   VecX lambda;
 };
 /// Throws RunError naming the coordinate with the largest unbalanced force.
 Equilibrium find_equilibrium(RelativeFormulation& f, VecX& q);
-/// Messages about elements that rest at a limit in the equilibrium that `f` is at, and about those
-/// that read what is not known there.
-std::vector<std::string> equilibrium_notes(RelativeFormulation& f);
+/// Messages about elements that rest at a limit in this equilibrium, at which `f` is, about those
+/// that read what is not known there, and about wheels that nothing holds.
+std::vector<std::string> equilibrium_notes(RelativeFormulation& f, const Equilibrium& e);
 /// Message about an equilibrium that a small disturbance would leave for good; empty: it is stable,
 /// or its matrices are too large to check. Moves `f`.
 std::string unstable_equilibrium(RelativeFormulation& f, const VecX& q, const VecX& lambda);

@@ -1,5 +1,6 @@
 #include "floatframe/start/linearization.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "floatframe/start/element_tangents.hpp"
@@ -24,6 +25,16 @@ VecX residual_at(Formulation& f, double t, const VecX& q, const VecX& v, const V
   return r;
 }
 
+double largest_load(const Formulation& f) {
+  const Model& model = f.model();
+  double mass = 0.0;
+  for (const Body& b : model.bodies) mass += b.data->invariants.m;
+  double load = std::max(1e-6, mass * model.gravity.norm());
+  for (int k = 0; k < std::ssize(model.elements); ++k)
+    for (const Wrench& w : f.effort(k).wrench) load = std::max({load, w.F.norm(), w.T.norm()});
+  return load;
+}
+
 VecX mass_times(Formulation& f, const VecX& d, double size, const VecX& r0, const VecX& lambda) {
   VecX r(f.velocities());
   f.residual(size * d, lambda, 0.0, r);
@@ -46,7 +57,7 @@ MatX stiffness_matrix(Formulation& f, const State& s) {
     return residual_at(f, s.t, q, s.v, s.lambda);
   });
   require_laws(f, s.t);
-  return elements.at_rest() + rest;
+  return elements.at_rest(s, step) + rest;
 }
 
 }  // namespace floatframe

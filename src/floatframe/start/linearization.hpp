@@ -40,6 +40,10 @@ VecX equilibration(const MatX& A);
 /// r without accelerations at t, q, v: moves `f` there, up to `dynamics`.
 VecX residual_at(Formulation& f, double t, const VecX& q, const VecX& v, const VecX& lambda);
 
+/// The largest of the weight and of the forces and torques of elements at the last evaluation [N],
+/// [N m]: imbalances are measured against it.
+double largest_load(const Formulation& f);
+
 /// M d at the state of `f`, from r0, the residual there without accelerations, at size d.
 VecX mass_times(Formulation& f, const VecX& d, double size, const VecX& r0, const VecX& lambda);
 

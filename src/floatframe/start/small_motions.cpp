@@ -116,6 +116,8 @@ SmallMotions small_motions(Formulation& f, const State& s) {
   m.scale = possible_masses(f, s);
 
   const VecX all_steps = unknown_steps(f.model(), m.scale, s), steps = all_steps.head(nv);
+  dynamics_at(f, s);
+  const double load = largest_load(f);
   const ElementTangents elements(f, s, steps);
   State moved = s;
   const auto terms = [&](const VecX& x, const VecX& v, const VecX& z) {
@@ -136,9 +138,9 @@ SmallMotions small_motions(Formulation& f, const State& s) {
   };
   const VecX still = VecX::Zero(nv), constant = VecX::Zero(m.states);
   const PreciseDifferences along = precise_differences(
-      steps, nv, [&](const VecX& x) { return terms(x, still, constant); }, "stiffness");
+      steps, nv, [&](const VecX& x) { return terms(x, still, constant); }, "stiffness", load);
   const PreciseDifferences rates = precise_differences(
-      10.0 * steps, nv, [&](const VecX& v) { return terms(still, v, constant); }, "damping");
+      10.0 * steps, nv, [&](const VecX& v) { return terms(still, v, constant); }, "damping", load);
   require_laws(f, s.t);
   m.K = elements.K + extended(along.columns.topRows(n), n, n);
   m.G = extended(along.columns.middleRows(n, nc), nc, n);

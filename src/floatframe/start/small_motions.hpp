@@ -14,6 +14,7 @@
 // on both sides, extrapolated: the error decreases with h^4. Near an edge of the law of an element
 // all of it is differences: a force whose slope jumps within the steps is detected by second
 // differences that decrease with h instead of h^2. Dense, allocates: load time only.
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -34,7 +35,8 @@ struct SmallMotions {
 };
 
 /// Columns dg/dx_j at 0, of a vector function g; steps: one for each x_j. `work`: name of the task
-/// for progress reports.
+/// for progress reports. `load`: the largest of the terms whose sums g are; their round-off is no
+/// corner.
 struct PreciseDifferences {
   MatX columns;
   std::vector<int> kinks;  ///< columns whose first `watched` rows have no one slope
@@ -42,7 +44,7 @@ struct PreciseDifferences {
 
 template <class Function>
 PreciseDifferences precise_differences(const VecX& steps, Eigen::Index watched, const Function& g,
-                                       const char* work = "") {
+                                       const char* work = "", double load = 0.0) {
   const Eigen::Index n = steps.size();
   VecX x = VecX::Zero(n);
   const VecX middle = g(x);
@@ -67,7 +69,8 @@ PreciseDifferences precise_differences(const VecX& steps, Eigen::Index watched, 
     d.columns.col(j) = (4.0 * slope[1] - slope[0]) / 3.0;
     constexpr double smooth = 0.75, seen = 1e-4;  // smooth: a half; a corner: one
     const double size = watched > 0 ? slope[1].head(watched).cwiseAbs().maxCoeff() : 0.0;
-    if (bend[1] > smooth * bend[0] && bend[1] > seen * size) {
+    const double rounding = 1e-13 * load / steps[j];
+    if (bend[1] > smooth * bend[0] && bend[1] > std::max(seen * size, rounding)) {
       d.kinks.push_back(static_cast<int>(j));
       bends.push_back(bend[1]);
     }

@@ -133,7 +133,7 @@ StaticsResult statics(const Model& model) {
   const std::string singular = singular_position(f, nearly_singular).sentence;
   if (!singular.empty()) s.notes.push_back(singular);
   if (!unstable.empty()) s.notes.push_back(unstable);
-  for (std::string& note : equilibrium_notes(f)) s.notes.push_back(std::move(note));
+  for (std::string& note : equilibrium_notes(f, e)) s.notes.push_back(std::move(note));
   s.iterations = e.iterations;
   s.residual = e.residual;
   const SystemMotion& motion = f.motion();
