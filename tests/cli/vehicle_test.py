@@ -23,7 +23,8 @@ class Vehicle(unittest.TestCase):
         self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
 
     def test_step_steer(self):
-        found = vehicle(MODEL, "--manoeuvre", "step-steer", "--speed", "80km/h", "--json", "--out", self.folder / "out")
+        found = vehicle(MODEL, "--manoeuvre", "step-steer", "--speed", "80km/h", "--set", "hold=1e5", "--json",
+                        "--out", self.folder / "out")
         self.assertEqual((found.returncode, found.stderr), (0, ""))
         figures = json.loads(found.stdout)
         # Half of the table's step of 2 deg, whose steady yaw rate is 10.66593737 deg/s.
@@ -43,10 +44,38 @@ class Vehicle(unittest.TestCase):
             self.assertEqual(found.returncode, 0, found.stderr)
             self.assertIn("from 80.00 km/h", found.stdout)
 
+    def test_entry_has_the_speed_asked_for(self):
+        found = vehicle(MODEL, "--speed", "36km/h")
+        self.assertEqual(found.returncode, 0, found.stderr)
+        self.assertIn("from 36.00 km/h", found.stdout)
+
     def test_messages(self):
-        found = vehicle(MODEL, "--speed", "fast")
-        self.assertEqual(found.returncode, 2)
-        self.assertIn("--speed", found.stderr)
+        for arguments, sentence in (
+                (["--speed", "fast"], "--speed: found 'fast', expected a positive number with km/h or m/s"),
+                (["--speed", "80mph"], "--speed: found '80mph', expected a positive number with km/h or m/s"),
+                (["--speed", "0"], "--speed: found '0', expected a positive number with km/h or m/s"),
+                (["--manoeuvre", "steady-circle", "--radius", "0"], "--radius: found '0', expected a positive number [m]"),
+                (["--manoeuvre", "steady-circle", "--radius", "-9"], "--radius: found '-9', expected a positive number [m]"),
+                (["--radius", "50"], "--radius: found it with --manoeuvre step-steer, expected it with steady-circle"),
+                (["--angle", "89"], "--angle: found '89', expected a positive number up to 40 [deg]"),
+                (["--manoeuvre", "double-lane-change", "--right"], "--right: found it with --manoeuvre double-lane-change"),
+                (["--torque", "100"], "--torque: found it with --manoeuvre step-steer, expected it with straight-stop"),
+                (["--travel", "0.1"], "--travel: found it with --manoeuvre step-steer, expected it with --rig k-and-c"),
+                (["--rig", "k-and-c", "--speed", "50km/h"], "--speed: found it with --rig k-and-c"),
+                (["--rig", "k-and-c", "--travel", "0"], "--travel: found '0', expected a positive number [m]"),
+                (["--rig", "k-and-c"], "vehicle.axles.front.left: found the wheel 'fl' welded to the chassis"),
+                (["--manoeuvre", "straight-stop"], "vehicle: found no 'brake', expected it for straight-stop"),
+                (["--manoeuvre", "slalom"], "--manoeuvre: found 'slalom', expected steady-circle, step-steer")):
+            with self.subTest(arguments):
+                found = vehicle(MODEL, *arguments)
+                self.assertEqual(found.returncode, 2, found.stdout)
+                self.assertIn(sentence, found.stderr)
+                self.assertEqual(len(found.stderr.splitlines()), 1, found.stderr)
+        found = vehicle(MODEL, "--set", "hold=1e5", "--speed", "40km/h")
+        self.assertEqual(found.returncode, 1)
+        self.assertIn("expected 11.1111 m/s: the force of its drive is at its limit of -10000 N", found.stderr)
+
+    def test_what_the_section_lacks(self):
         text = MODEL.read_text()
         short = self.folder / "short.yaml"
         short.write_text(text[:text.index("vehicle:\n")] + text[text.index("simulation:"):])

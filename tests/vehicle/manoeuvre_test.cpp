@@ -59,7 +59,7 @@ std::vector<Eigen::Vector2d> linear_step_steer(const SingleTrack& car, double v,
 TEST(StepSteer, IsThatOfTheLinearEquations) {
   const double v = 80.0 / 3.6;
   const SingleTrack car = single_track("understeer");
-  VehicleRun run(single_track_setup(v));
+  VehicleRun run(single_track_setup(v, {{"hold", "1e5"}}));
   EXPECT_NEAR(run.mass(), 1500.0, 1e-9);
   EXPECT_NEAR(run.highest_force(), 3000.0 / 0.3, 1e-9);
   const StepSteerOptions options{.speed = v, .duration = 5.0};
@@ -95,7 +95,7 @@ TEST(SteadyCircle, HasTheGradientsOfTheLinearEquations) {
   const SingleTrack car = single_track("understeer");
   const double K = number(vehicle_table("singletrack_parameters.csv")[0], "K_rad_s2_m");
   for (const bool right : {false, true}) {
-    VehicleRun run(single_track_setup(std::sqrt(50.0), {{"hold", "0"}}));
+    VehicleRun run(single_track_setup(std::sqrt(50.0)));
     const SteadyCircleResult r =
         steady_circle(run, {.speed = std::sqrt(300.0), .right = right, .spacing = 1.0});
     EXPECT_EQ(r.ended, "");
@@ -138,7 +138,7 @@ TEST(LaneChange, PathPassesTheGates) {
 TEST(LaneChange, IsDrivenSlowly) {
   VehicleNeeds needs = driven;
   needs.width = true;
-  VehicleRun run(vehicle_setup(single_track_model({{"v", "8"}}), "double-lane-change", needs, 8.0));
+  VehicleRun run(vehicle_setup(single_track_model(), "double-lane-change", needs, 8.0));
   const LaneChangeResult r = lane_change(run, 8.0);
   EXPECT_NEAR(r.entry_speed, 8.0, 0.05);
   EXPECT_NEAR(r.exit_speed, 8.0, 0.05);

@@ -1,10 +1,13 @@
 // floatframe vehicle: manoeuvres of a vehicle and their figures.
+#include <cmath>
+#include <initializer_list>
 #include <memory>
 #include <numbers>
 #include <utility>
 
 #include "floatframe/apps/commands.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/number_rule.hpp"
 #include "floatframe/core/thread_clock.hpp"
 #include "floatframe/description/inertia_choice.hpp"
 #include "floatframe/model_file/model_fingerprint.hpp"
@@ -17,7 +20,8 @@ namespace {
 
 struct VehicleArguments {
   ModelArguments model;
-  std::string manoeuvre, rig, travel, speed, radius, angle, step, coordinates, inertia, out;
+  std::string manoeuvre, rig, travel, speed, radius, angle, torque;
+  std::string step, coordinates, inertia, out;
   bool right = false, json = false;
 };
 
@@ -32,19 +36,68 @@ double speed_of(const std::string& text) {
       break;
     }
   while (number.ends_with(' ')) number.pop_back();
-  return factor * positive_number("--speed", number);
+  try {
+    return factor * option_number("--speed", number, positive_number("m/s"));
+  } catch (const InputError&) {
+    throw InputError(ErrorCode::out_of_range,
+                     "--speed: found '" + text +
+                         "', expected a positive number with km/h or m/s, as 80km/h, or one of "
+                         "m/s without a unit");
+  }
+}
+
+/// An option that the manoeuvre does not read would say something that is not so.
+void require_own_options(const VehicleArguments& a) {
+  const bool rig = !a.rig.empty();
+  const std::string what = rig ? "--rig " + a.rig : "--manoeuvre " + a.manoeuvre;
+  const auto only = [&](const char* option, bool given, std::initializer_list<const char*> of) {
+    if (!given) return;
+    std::string expected;
+    for (const char* m : of) {
+      if (!rig && a.manoeuvre == m) return;
+      expected += (expected.empty() ? "" : " or ") + std::string(m);
+    }
+    throw InputError(ErrorCode::exclusive, std::string(option) + ": found it with " + what +
+                                               ", expected it with " + expected);
+  };
+  const auto all = {"steady-circle", "step-steer", "double-lane-change", "straight-stop"};
+  only("--radius", !a.radius.empty(), {"steady-circle"});
+  only("--angle", !a.angle.empty(), {"step-steer"});
+  only("--torque", !a.torque.empty(), {"straight-stop"});
+  only("--right", a.right, {"steady-circle", "step-steer"});
+  only("--speed", rig && !a.speed.empty(), all);
+  only("--out", rig && !a.out.empty(), all);
+  if (!rig && !a.travel.empty())
+    throw InputError(ErrorCode::exclusive,
+                     "--travel: found it with " + what + ", expected it with --rig k-and-c");
 }
 
 SteadyCircleOptions circle_options(const VehicleArguments& a, double speed) {
   SteadyCircleOptions o{.speed = speed, .right = a.right};
-  if (!a.radius.empty()) o.radius = positive_number("--radius", a.radius);
+  if (!a.radius.empty()) o.radius = option_number("--radius", a.radius, positive_number("m"));
   return o;
 }
 
 StepSteerOptions step_options(const VehicleArguments& a, double speed) {
   StepSteerOptions o{.speed = speed};
-  if (!a.angle.empty()) o.angle = positive_number("--angle", a.angle) * std::numbers::pi / 180.0;
+  NumberRule rule = positive_number("deg");
+  rule.what = "a positive number up to 40";
+  rule.high = 40.0;
+  if (!a.angle.empty())
+    o.angle = option_number("--angle", a.angle, rule) * std::numbers::pi / 180.0;
   if (a.right) o.angle = -o.angle;
+  return o;
+}
+
+/// Without --torque, all that the brakes can do.
+StraightStopOptions stop_options(const VehicleArguments& a, const VehicleRun& run, double speed) {
+  StraightStopOptions o{.speed = speed};
+  o.torque = run.highest_braking() * run.wheel_radius();
+  if (!a.torque.empty()) o.torque = option_number("--torque", a.torque, positive_number("N m"));
+  if (!std::isfinite(o.torque))
+    throw InputError(ErrorCode::missing,
+                     "--torque: found none, expected the torque of all brakes "
+                     "[N m], since the brake input has no limit");
   return o;
 }
 
@@ -59,6 +112,8 @@ ManoeuvreReport drive(VehicleRun& run, const VehicleArguments& a, double speed) 
     return manoeuvre_report(model, step_steer(run, step_options(a, speed)));
   if (a.manoeuvre == "steady-circle")
     return manoeuvre_report(model, steady_circle(run, circle_options(a, speed)));
+  if (a.manoeuvre == "straight-stop")
+    return manoeuvre_report(model, straight_stop(run, stop_options(a, run, speed)));
   return manoeuvre_report(model, lane_change(run, speed));
 }
 
@@ -88,7 +143,7 @@ void save_record(VehicleRun& run, const VehicleArguments& a, const ModelFingerpr
 
 int put_on_rig(const VehicleArguments& a, const ModelDescription& description) {
   RigOptions options;
-  if (!a.travel.empty()) options.travel = positive_number("--travel", a.travel);
+  if (!a.travel.empty()) options.travel = option_number("--travel", a.travel, positive_number("m"));
   const ManoeuvreReport report =
       rig_report(description.name, suspension_figures(description, options));
   print(a.json ? report.json : report.text);
@@ -96,6 +151,7 @@ int put_on_rig(const VehicleArguments& a, const ModelDescription& description) {
 }
 
 int drive_vehicle(const VehicleArguments& a) {
+  require_own_options(a);
   const double speed = speed_of(a.speed);
   ModelFingerprint used;
   ModelDescription description = read_model(a.model, false, &used);
@@ -103,8 +159,10 @@ int drive_vehicle(const VehicleArguments& a) {
   set_formulation(description.simulation, a.coordinates, a.inertia);
   check_inertia_method(description, description.simulation.inertia);
   if (!a.rig.empty()) return put_on_rig(a, description);
-  const VehicleNeeds needs{
-      .steering = true, .drive = true, .width = a.manoeuvre == "double-lane-change"};
+  const VehicleNeeds needs{.steering = true,
+                           .drive = true,
+                           .brake = a.manoeuvre == "straight-stop",
+                           .width = a.manoeuvre == "double-lane-change"};
   VehicleRun run(vehicle_setup(std::move(description), a.manoeuvre, needs, start_speed(a, speed)));
   const Nanoseconds before = thread_cpu_clock();
   const ManoeuvreReport report = drive(run, a, speed);
@@ -124,8 +182,9 @@ Command vehicle_command() {
       .options = joined(
           model_options(a->model),
           {word_option("--manoeuvre", a->manoeuvre,
-                       {"steady-circle", "step-steer", "double-lane-change"},
-                       "Figures of ISO 4138 (constant radius), ISO 7401 or ISO 3888-2"),
+                       {"steady-circle", "step-steer", "double-lane-change", "straight-stop"},
+                       "Figures of ISO 4138 (constant radius), ISO 7401, ISO 3888-2 or UN R13-H "
+                       "(default step-steer)"),
            word_option("--rig", a->rig, {"k-and-c"},
                        "Instead: toe, camber, track and wheel rate over travel, roll and steer"),
            text_option("--travel", a->travel, "METRES",
@@ -136,7 +195,9 @@ Command vehicle_command() {
                "else at the start"),
            text_option("--radius", a->radius, "METRES", "Of the circle (default 100)"),
            text_option("--angle", a->angle, "DEGREES",
-                       "Of the step at the road wheels (default 1)"),
+                       "Of the step at the road wheels, up to 40 (default 1)"),
+           text_option("--torque", a->torque, "NM",
+                       "Of all brakes in a straight stop (default: the limit of the brake input)"),
            flag("--right", a->right, "Circle or step to the right instead of to the left"),
            text_option("--step", a->step, "SECONDS", "Time step, otherwise that of the model"),
            coordinates_option(a->coordinates), inertia_option(a->inertia),

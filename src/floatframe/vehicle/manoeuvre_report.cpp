@@ -150,4 +150,23 @@ ManoeuvreReport manoeuvre_report(const std::string& model, const LaneChangeResul
                          {"largest_steering_deg", to_deg * r.largest_steering}})};
 }
 
+ManoeuvreReport manoeuvre_report(const std::string& model, const StraightStopResult& r) {
+  const std::string text = fmt::format(
+      "{}: straight stop from {:.2f} km/h with a brake torque of {:.5g} N m, steering held\n\n"
+      "  stopping distance            {:.3f} m in {:.3f} s\n"
+      "  mean deceleration (MFDD)     {:.4f} m/s2 (UN R13-H, from 80 % to 10 % of the speed)\n"
+      "  largest offset, yaw angle    {:.4f} m, {:.4f} deg\n",
+      model, 3.6 * r.speed, r.torque, r.distance, r.duration, r.deceleration, r.offset,
+      to_deg * r.turned);
+  return {text, json_document({{"model", model},
+                               {"manoeuvre", "straight-stop"},
+                               {"speed_m_s", r.speed},
+                               {"torque_N_m", r.torque},
+                               {"distance_m", r.distance},
+                               {"duration_s", r.duration},
+                               {"mfdd_m_s2", r.deceleration},
+                               {"largest_offset_m", r.offset},
+                               {"largest_yaw_deg", to_deg * r.turned}})};
+}
+
 }  // namespace floatframe

@@ -4,6 +4,7 @@
 
 #include "floatframe/vehicle/lane_change.hpp"
 #include "floatframe/vehicle/manoeuvres.hpp"
+#include "floatframe/vehicle/straight_stop.hpp"
 
 namespace floatframe {
 
@@ -14,5 +15,6 @@ struct ManoeuvreReport {
 ManoeuvreReport manoeuvre_report(const std::string& model, const StepSteerResult& result);
 ManoeuvreReport manoeuvre_report(const std::string& model, const SteadyCircleResult& result);
 ManoeuvreReport manoeuvre_report(const std::string& model, const LaneChangeResult& result);
+ManoeuvreReport manoeuvre_report(const std::string& model, const StraightStopResult& result);
 
 }  // namespace floatframe

@@ -1,9 +1,14 @@
 #include "floatframe/vehicle/suspension_rig.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
+#include <set>
 
+#include "floatframe/loops/run_error.hpp"
 #include "floatframe/stepping/stepping.hpp"
 #include "floatframe/vehicle/circle_figures.hpp"
 #include "floatframe/vehicle/vehicle_parts.hpp"
@@ -68,11 +73,11 @@ void hold_wheel(ModelDescription& d, const RiggedWheel& w, double travel) {
   plane.b = rig_place(w.wheel->wheel, centre);
   plane.axis = Vec3::UnitZ();
   d.constraints.push_back({name, plane, {}});
+  if (JointDescription* spin = spin_joint(d, *w.wheel)) {
+    spin->velocity.clear();
+    spin->motion = TimeFunction{.pieces = PiecewisePolynomial::polynomial({0.0})};
+  }
   std::erase_if(d.forces, [&](const ElementDescription& e) { return e.name == w.wheel->tyre; });
-  JointDescription* spin = spin_joint(d, w.wheel->spin);
-  if (spin == nullptr) return;
-  spin->velocity.clear();
-  spin->motion = TimeFunction{.pieces = PiecewisePolynomial::polynomial({0.0})};
 }
 
 /// Nine outputs of a wheel: its centre, a point 1 m to the left on its axis, the plane's force.
@@ -141,8 +146,24 @@ RigWheel wheel_of(const double* y, bool left, const Vec3& centre, Vec3& lowest) 
   return out;
 }
 
+/// Throws RunError with the travel and the cause.
+std::unique_ptr<Simulation> start_on_rig(const ModelDescription& description,
+                                         const RiggedPoint& point) {
+  try {
+    return std::make_unique<Simulation>(build_model(rigged(description, point)));
+  } catch (const RunError& e) {
+    throw RunError(e.code(),
+                   fmt::format("the suspension has no equilibrium on the rig at a travel of {:.5g} "
+                               "mm on the left, {:.5g} mm on the right{}: {}",
+                               1e3 * point.travel[0], 1e3 * point.travel[1],
+                               point.input ? fmt::format(" and {:.5g} as steering", *point.input)
+                                           : std::string(),
+                               e.what()));
+  }
+}
+
 RigPoint measured_point(const ModelDescription& description, const RiggedPoint& point) {
-  const Simulation simulation(build_model(rigged(description, point)));
+  const std::unique_ptr<Simulation> simulation = start_on_rig(description, point);
   const std::vector<RiggedWheel> wheels = rigged_wheels(*description.vehicle);
   RigPoint out;
   out.travel = point.travel[0];
@@ -151,7 +172,7 @@ RigPoint measured_point(const ModelDescription& description, const RiggedPoint& 
     RigAxle axle;
     Vec3 left, right;
     const auto wheel = [&](std::size_t i, Vec3& lowest) {
-      return wheel_of(simulation.outputs().data() + 9 * i, wheels[i].left,
+      return wheel_of(simulation->outputs().data() + 9 * i, wheels[i].left,
                       design_centre(vehicle_body(description, wheels[i].wheel->wheel)), lowest);
     };
     axle.left = wheel(k, left);
@@ -176,18 +197,55 @@ void find_rates(std::vector<RigPoint>& points) {
     }
 }
 
+/// The bodies that are one with another by welds.
+std::set<std::string> welded_to(const ModelDescription& d, const std::string& body) {
+  std::set<std::string> out{body};
+  const auto weld = joint_of_type({}, "weld").type;
+  for (std::size_t before = 0; before != out.size();) {
+    before = out.size();
+    for (const JointDescription& j : d.joints) {
+      if (j.type != weld) continue;
+      if (out.contains(j.parent.body)) out.insert(j.child.body);
+      if (out.contains(j.child.body)) out.insert(j.parent.body);
+    }
+  }
+  return out;
+}
+
+void require_suspension(const ModelDescription& d) {
+  const std::set<std::string> chassis = welded_to(d, d.vehicle->chassis);
+  for (const RiggedWheel& w : rigged_wheels(*d.vehicle))
+    if (chassis.contains(w.wheel->wheel))
+      throw vehicle_error(d, ErrorCode::wrong_value, "vehicle.axles." + w.name,
+                          "found the wheel '" + w.wheel->wheel +
+                              "' welded to the chassis, expected one on a suspension for k-and-c");
+}
+
 void require_vehicle(const ModelDescription& d) {
   if (!d.vehicle)
-    throw InputError(ErrorCode::missing,
+    throw InputError(ErrorCode::missing, SourceMark{.file = d.simulation.origin.mark.file},
                      "k-and-c: found no section 'vehicle', expected one with the roles of bodies, "
                      "tyres and inputs");
 }
 
 }  // namespace
 
+bool stands_still(const std::vector<RigPoint>& points, std::size_t axle) {
+  double most = 0.0;
+  for (const RigPoint& p : points)
+    for (RigWheel RigAxle::*side : {&RigAxle::left, &RigAxle::right}) {
+      const RigWheel &here = p.axles[axle].*side, &first = points.front().axles[axle].*side;
+      for (double RigWheel::*value :
+           {&RigWheel::x, &RigWheel::y, &RigWheel::steer, &RigWheel::camber})
+        most = std::max(most, std::abs(here.*value - first.*value));
+    }
+  return most < 1e-9;
+}
+
 std::vector<RigPoint> suspension_sweep(const ModelDescription& description, RigSweep sweep,
                                        const RigOptions& options) {
   require_vehicle(description);
+  require_suspension(description);
   const VehicleDescription& v = *description.vehicle;
   if (sweep == RigSweep::steer && !v.steering)
     throw InputError(ErrorCode::missing, v.origin.mark,

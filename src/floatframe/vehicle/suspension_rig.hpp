@@ -12,6 +12,8 @@
 //   e      = c - h (z - n_z n)/|z - n_z n|       lowest point of a wheel of the radius h [m]
 //   track  = e_y left - e_y right                [m]
 //   wheel rate = dF_z/dz                  slope of the force that holds the centre [N/m]
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,7 +35,7 @@ struct RigWheel {
   double x = 0.0, y = 0.0;  ///< of the centre, from there [m]
   double steer = 0.0, toe = 0.0, camber = 0.0;  ///< [rad]
   double force = 0.0;                           ///< that holds the wheel up [N]
-  double rate = 0.0;                            ///< over the travel [N/m]; in a steer sweep zero
+  std::optional<double> rate = {};              ///< over the travel [N/m]; none in a steer sweep
 };
 
 struct RigAxle {
@@ -47,8 +49,13 @@ struct RigPoint {
   std::vector<RigAxle> axles;  ///< in the order of the description
 };
 
+/// An axle whose wheels stay as they are, by 1e-9 rad or m, over a sweep: what it does in a steer
+/// sweep means nothing.
+bool stands_still(const std::vector<RigPoint>& points, std::size_t axle);
+
 /// The points of a sweep. Throws InputError if the section `vehicle` is missing, or its steering in
-/// a steer sweep; RunError where an equilibrium is not found.
+/// a steer sweep, and for a wheel that is welded to the chassis; RunError, with the travel, where
+/// an equilibrium is not found.
 std::vector<RigPoint> suspension_sweep(const ModelDescription& description, RigSweep sweep,
                                        const RigOptions& options);
 

@@ -7,16 +7,26 @@
 #include <limits>
 #include <numbers>
 #include <tuple>
+#include <utility>
 
 #include "floatframe/loops/run_error.hpp"
 #include "floatframe/model/model.hpp"
 #include "floatframe/run/run.hpp"
+#include "floatframe/vehicle/input_probe.hpp"
 
 namespace floatframe {
 namespace {
 
 const Input& input_of(const Model& model, const std::string& name) {
   return *std::ranges::find(model.inputs, name, &Input::name);
+}
+
+/// The torque is F R, the input `ratio` times the torque.
+std::pair<double, double> force_limits(const Model& model, const VehicleInput& input,
+                                       double radius) {
+  const Input& limits = input_of(model, input.input);
+  const double factor = 1.0 / (input.ratio * radius);
+  return std::minmax({limits.low * factor, limits.high * factor});
 }
 
 }  // namespace
@@ -31,12 +41,10 @@ VehicleRun::VehicleRun(const VehicleSetup& setup)
   const std::vector<std::string> names = simulation_.output_names();
   for (std::size_t k = 0; k < index_.size(); ++k)
     index_[k] = std::ranges::find(names, measured_names[k]) - names.begin();
-  if (vehicle_.drive) {
-    // The torque is F R, the input `ratio` times the torque.
-    const Input& drive = input_of(model(), vehicle_.drive->input);
-    const double factor = 1.0 / (vehicle_.drive->ratio * wheel_radius_);
-    std::tie(lowest_, highest_) = std::minmax({drive.low * factor, drive.high * factor});
-  }
+  if (vehicle_.drive)
+    std::tie(lowest_drive_, highest_) = force_limits(model(), *vehicle_.drive, wheel_radius_);
+  if (vehicle_.brake)
+    highest_braking_ = std::max(0.0, force_limits(model(), *vehicle_.brake, wheel_radius_).second);
   table.columns.push_back({"time", "s"});
   for (const Output& o : model().outputs) table.columns.push_back({o.name, o.unit});
   for (const Input& i : model().inputs) table.columns.push_back({"inputs." + i.name, i.unit});
@@ -48,15 +56,23 @@ void VehicleRun::set(const VehicleInput& input, double value) {
   simulation_.set_input(input.input, std::clamp(value * input.ratio, limits.low, limits.high));
 }
 
-void VehicleRun::step(double steering, double force) {
+void VehicleRun::step(double steering, double force, double braking) {
+  const double drive = std::max(force, lowest_drive_);
   if (vehicle_.steering) set(*vehicle_.steering, steering);
-  if (vehicle_.drive) set(*vehicle_.drive, force * wheel_radius_);
+  if (vehicle_.drive) set(*vehicle_.drive, drive * wheel_radius_);
+  if (vehicle_.brake) set(*vehicle_.brake, (drive - force + braking) * wheel_radius_);
   if (const StepReport report = simulation_.step(); !report)
     throw RunError(ErrorCode::step_failed, simulation_.failure(), simulation_.thrown());
   ++steps_;
   read();
   now_.steering = steering;
   if (recording_) record();
+}
+
+void VehicleRun::restore(const SimulationState& state) {
+  simulation_.restore(state);
+  now_.steering = 0.0;
+  read();
 }
 
 void VehicleRun::read() {
@@ -90,12 +106,26 @@ void VehicleRun::record() {
   for (const double u : simulation_.inputs()) table.data.push_back(u);
 }
 
+namespace {
+
+/// A force that has stayed at its limit while nothing changed will not do more.
+[[noreturn]] void throw_at_limit(const VehicleRun& run, double force, double speed) {
+  throw RunError(
+      ErrorCode::not_steady,
+      fmt::format("the vehicle stays at {:.6g} m/s, expected {:.6g} m/s: the force of its drive{} "
+                  "is at its limit of {:.5g} N",
+                  run.now().view.speed, speed, run.vehicle().brake ? " and brakes" : "", force));
+}
+
+}  // namespace
+
 TrimmedInputs drive_trimmed(VehicleRun& run, PathFollower& follower, SpeedController& controller,
                             double speed) {
   constexpr double steady_rate = 5e-5 * std::numbers::pi / 180.0, steady_speed = 5e-5;
-  constexpr double longest = 120.0, window = 1.0;
+  constexpr double longest = 120.0, window = 1.0, near = 1e-3;
+  require_inputs_that_act(run);
   const double dt = run.step_size();
-  double since = 0.0, low = 0.0, high = 0.0, rate = 0.0;
+  double since = 0.0, low = 0.0, high = 0.0, rate = 0.0, limited = 0.0;
   TrimmedInputs out;
   for (double t = 0.0; t < longest; t += dt) {
     out = {.steering = follower.steer(run.now().view, dt),
@@ -109,10 +139,14 @@ TrimmedInputs drive_trimmed(VehicleRun& run, PathFollower& follower, SpeedContro
       since = 0.0, low = high = v.speed;
     else
       since += dt;
-    if (since >= window) {
+    const bool free = out.force > run.lowest_force() && out.force < run.highest_force();
+    limited = free ? 0.0 : limited + dt;
+    if (since < window) continue;
+    if (std::abs(v.speed - speed) < near) {
       run.begin_record();
       return out;
     }
+    if (limited >= window) throw_at_limit(run, out.force, speed);
   }
   throw RunError(
       ErrorCode::not_steady,

@@ -37,13 +37,23 @@ class VehicleRun {
   double step_size() const noexcept { return simulation_.options().step; }
   double mass() const noexcept { return mass_; }
   const VehicleInstant& now() const noexcept { return now_; }
-  /// Limits of the drive force on the vehicle [N], by those of the input.
-  double lowest_force() const noexcept { return lowest_; }
+  double wheel_radius() const noexcept { return wheel_radius_; }
+  /// Limits of the force on the vehicle [N], by those of the inputs: that of the drive alone, and
+  /// that of drive and brakes together.
+  double lowest_drive() const noexcept { return lowest_drive_; }
+  double lowest_force() const noexcept { return lowest_drive_ - highest_braking_; }
   double highest_force() const noexcept { return highest_; }
+  /// Of the brakes [N]; zero without.
+  double highest_braking() const noexcept { return highest_braking_; }
 
-  /// One step with this road-wheel angle [rad] and this drive force [N]; an angle beyond the limits
-  /// of the input is the limit. Throws RunError with the cause if it fails.
-  void step(double steering, double force);
+  /// One step with this road-wheel angle [rad] and this force along the vehicle [N]. What the drive
+  /// cannot do of it, below its lower limit, the brakes do if there are any, and `braking` [N] more.
+  /// An angle or force beyond the limits of its input is the limit. Throws RunError with the cause
+  /// if it fails.
+  void step(double steering, double force, double braking = 0.0);
+  /// The state, and the return to one. Inputs of the steps in between leave no trace.
+  SimulationState save() const { return simulation_.save(); }
+  void restore(const SimulationState& state);
   /// Time, position and heading count from here, and rows are recorded from here on.
   void begin_record();
   /// Time, the outputs of the model, the values of the inputs as "inputs.NAME".
@@ -58,7 +68,8 @@ class VehicleRun {
   Simulation simulation_;
   VehicleDescription vehicle_;
   AxleDistances axles_;
-  double wheel_radius_, mass_ = 0.0, lowest_ = 0.0, highest_ = 0.0, begin_ = 0.0;
+  double wheel_radius_, mass_ = 0.0, begin_ = 0.0;
+  double lowest_drive_ = 0.0, highest_ = 0.0, highest_braking_ = 0.0;
   bool recording_ = false;
   long steps_ = 0, every_ = 1;
   std::array<std::ptrdiff_t, std::size(measured_names)> index_{};
@@ -66,8 +77,9 @@ class VehicleRun {
 };
 
 /// Starts trimmed: drives straight on under both controllers until, for one second, the yaw rate
-/// stays below 5e-5 deg/s and the speed within 5e-5 m/s. Then the record begins. Throws RunError
-/// after 120 s.
+/// stays below 5e-5 deg/s and the speed within 5e-5 m/s, at most 1e-3 m/s from the one asked for.
+/// Then the record begins. Throws InputError if an input does not act (input_probe.hpp), RunError
+/// after 120 s, or earlier where the force is at its limit and the speed another one.
 struct TrimmedInputs {
   double steering = 0.0;  ///< road-wheel angle that drives straight [rad]
   double force = 0.0;     ///< against the resistance [N]

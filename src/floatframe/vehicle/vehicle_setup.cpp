@@ -11,7 +11,7 @@ namespace {
 void require_roles(const ModelDescription& d, const std::string& manoeuvre,
                    const VehicleNeeds& needs) {
   if (!d.vehicle)
-    throw InputError(ErrorCode::missing,
+    throw InputError(ErrorCode::missing, SourceMark{.file = d.simulation.origin.mark.file},
                      manoeuvre +
                          ": found no section 'vehicle', expected one with the roles of "
                          "bodies, tyres and inputs");
@@ -23,6 +23,7 @@ void require_roles(const ModelDescription& d, const std::string& manoeuvre,
   };
   if (needs.steering && !v.steering) lacks("steering");
   if (needs.drive && !v.drive) lacks("drive");
+  if (needs.brake && !v.brake) lacks("brake");
   if (needs.width && v.width == 0.0) lacks("width");
   if (v.axles.size() < 2)
     errors.add({v.origin.of("axles"), ErrorCode::wrong_count,
@@ -60,10 +61,9 @@ void add_load(ModelDescription& d, const std::string& wheel, const std::string& 
 
 /// A wheel rolls at v/R; about an axis that points to the right the other way round.
 void spin_up(ModelDescription& d, const VehicleWheel& wheel, double rate) {
-  JointDescription* joint = spin_joint(d, wheel.spin);
+  JointDescription* joint = spin_joint(d, wheel);
   if (joint == nullptr) return;
-  const bool turned = joint->child.body != wheel.wheel;
-  const double along = joint->axis.y() / joint->axis.norm() * (turned ? -1.0 : 1.0);
+  const double along = joint->axis.y() * (spins_as_parent(d, *joint, wheel) ? -1.0 : 1.0);
   joint->velocity = {rate * (along < 0.0 ? -1.0 : 1.0)};
 }
 

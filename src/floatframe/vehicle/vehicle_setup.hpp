@@ -32,7 +32,7 @@ inline constexpr const char* measured_names[] = {
 
 /// What a manoeuvre needs of the section `vehicle`.
 struct VehicleNeeds {
-  bool steering = false, drive = false, width = false;
+  bool steering = false, drive = false, brake = false, width = false;
 };
 
 struct VehicleSetup {
