@@ -33,6 +33,7 @@ from .model import Model
 from .options import Options
 from .parts import FileInfo, Part, convert, info, read_body, reduce
 from .places import Place, cylinder, nearest, node, nodes, plane, set_, sphere
+from .roads import Road
 from .run import Result, run
 from .simulation import Simulation
 from .study import sweep
@@ -60,6 +61,7 @@ __all__ = [
     "Projection",
     "Report",
     "Result",
+    "Road",
     "RunError",
     "Simulation",
     "SimulationState",

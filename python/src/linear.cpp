@@ -180,7 +180,7 @@ void bind_ports(nb::module_& m) {
   });
 }
 
-void bind_road(nb::module_& m) {
+void bind_road_response(nb::module_& m) {
   nb::class_<OutputSpectrum> spectrum(m, "OutputSpectrum", "An output on a random road.");
   spectrum.def_prop_ro("name", [](const OutputSpectrum& s) { return s.output.name; });
   spectrum.def_prop_ro("unit", [](const OutputSpectrum& s) { return s.output.unit; });
@@ -210,7 +210,7 @@ void bind_linear(nb::module_& m) {
   bind_system(m);
   bind_modes(m);
   bind_ports(m);
-  bind_road(m);
+  bind_road_response(m);
 }
 
 }  // namespace floatframe::python

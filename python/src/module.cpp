@@ -17,5 +17,6 @@ NB_MODULE(_core, m) {
   bind_body(m);
   bind_mesh(m);
   bind_part(m);
+  bind_road(m);
   bind_threads();
 }

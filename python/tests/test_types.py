@@ -60,6 +60,8 @@ mass: float = ff.mass_properties(model).mass
 counts: int = ff.check(model).degrees_of_freedom
 bodies = ff.advise(model).bodies, ff.model_order(model, below=30.0).bodies
 names: list[str] = ff.linear_inputs(model)
+road = ff.Road.of(model, "stairs"), ff.Road.read("block.crg", interpolation="cubic", border_u="none", begin="origin")
+above: Array = road[0].height([1.0, 2.0], 0.5)
 table = ff.sweep(model, speed=np.linspace(3, 8, 11), processes=4, measure=["chassis.z:max"], folder="study")
 runs = ff.sweep(model, runs=[{"speed": 3}])
 

@@ -1,6 +1,6 @@
 #pragma once
 // Roads: profiles, height over x, a piecewise polynomial plus cosine bumps; and surfaces over x and
-// y, which are added (roads/road_surface.hpp).
+// y, which are added (RoadSurface).
 #include "floatframe/model/model.hpp"
 #include "floatframe/roads/surface_point.hpp"
 
@@ -11,7 +11,7 @@ struct RoadPoint {
   double z = 0.0, slope = 0.0, curvature = 0.0;
 };
 RoadPoint road_at(const Road& road, double x) noexcept;
-/// On one segment, also beyond its edges (math/piecewise_polynomial.hpp).
+/// On one segment, also beyond its edges (PiecewisePolynomial).
 RoadPoint road_at(const Road& road, std::size_t stretch, double x) noexcept;
 /// The surface above (x, y), in world axes; that of a profile does not depend on y. Step time.
 SurfacePoint surface_at(const Road& road, double x, double y) noexcept;

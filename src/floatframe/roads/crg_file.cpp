@@ -42,8 +42,8 @@ class CrgFileReader {
     if (filled_ > 0)
       note(fmt::format("{} heights are missing; the last one of their cross section is taken",
                        filled_));
-    road_.singles.shrink_to_fit();
-    road_.doubles.shrink_to_fit();
+    trim(road_.singles);
+    trim(road_.doubles);
     return std::move(road_);
   }
 
@@ -232,6 +232,17 @@ class CrgFileReader {
       road_.singles.reserve(count);
     else
       road_.doubles.reserve(count);
+    for (const CrgChannel& c : header_.channels)
+      if (c.what != What::height && c.what != What::other) values_of(c.what).reserve(rows + 1);
+  }
+
+  /// Memory that was reserved and never touched is none; to give it back takes a second copy.
+  static void trim(auto& heights) {
+    if (heights.capacity() - heights.size() > heights.size() / 4) heights.shrink_to_fit();
+  }
+
+  std::vector<double>& values_of(What what) {
+    return what == What::heading ? heading_ : what == What::slope ? slope_ : road_.banking;
   }
 
   template <class MarkOf>
@@ -250,10 +261,7 @@ class CrgFileReader {
       if (what == What::height || what == What::other) continue;
       const bool unused = rows_ == 1 && what != What::banking;
       if (std::isnan(row[k]) && !unused) wrong(k, "one");
-      (what == What::heading ? heading_
-       : what == What::slope ? slope_
-                             : road_.banking)
-          .push_back(unused ? 0.0 : row[k]);
+      values_of(what).push_back(unused ? 0.0 : row[k]);
     }
     const auto there = [&](std::size_t k) { return !std::isnan(row[k]); };
     const auto first = std::ranges::find_if(order_, there);
@@ -285,20 +293,19 @@ class CrgFileReader {
                        rows_, expected, step_, start_, *end));
   }
 
-  /// From its beginning by steps, and if an end is given, bent so that it ends there.
-  std::vector<double> summed(double start, std::optional<double> end, const auto& rise) const {
-    std::vector<double> x(rows_, start);
+  /// x(k) for each row: from its beginning by steps, and if an end is given, bent so that it ends
+  /// there.
+  void sum_up(double start, std::optional<double> end, const auto& rise, const auto& x) const {
     const double n = rows_ - 1.0;
     if (end) {
-      x.back() = *end;
-      for (std::size_t k = rows_ - 1; k > 0; --k) x[k - 1] = x[k] - step_ * rise(k);
-      x[0] = start;
+      x(rows_ - 1) = *end;
+      for (std::size_t k = rows_ - 1; k > 0; --k) x(k - 1) = x(k) - step_ * rise(k);
     }
+    x(0) = start;
     for (std::size_t k = 1; k < rows_; ++k) {
-      const double share = end ? k / n : 0.0;
-      x[k] = (1.0 - share) * (x[k - 1] + step_ * rise(k)) + share * x[k];
+      const double forward = x(k - 1) + step_ * rise(k), share = end ? k / n : 0.0;
+      x(k) = end ? (1.0 - share) * forward + share * x(k) : forward;
     }
-    return x;
   }
 
   void course() {
@@ -315,17 +322,15 @@ class CrgFileReader {
       const auto along_x = [&](std::size_t k) { return std::cos(heading_[k]); };
       const auto along_y = [&](std::size_t k) { return std::sin(heading_[k]); };
       std::vector<ReferenceLine::Node> nodes(rows_);
-      {
-        const std::vector<double> xs = summed(x, end_x, along_x);
-        for (std::size_t k = 0; k < rows_; ++k) nodes[k].x = xs[k];
-      }
-      const std::vector<double> ys = summed(y, end_y, along_y);
-      for (std::size_t k = 0; k < rows_; ++k) nodes[k].y = ys[k];
+      sum_up(x, end_x, along_x, [&](std::size_t k) -> double& { return nodes[k].x; });
+      sum_up(y, end_y, along_y, [&](std::size_t k) -> double& { return nodes[k].y; });
       double gap_x = x, gap_y = y;
       for (std::size_t k = 1; k < rows_; ++k)
         gap_x += step_ * along_x(k), gap_y += step_ * along_y(k);
       ends_apart(gap_x, gap_y, end_x, end_y);
-      road_.line = ReferenceLine(start_, step_, std::move(nodes), heading_[1], heading_.back());
+      const double first = heading_[1], last = heading_.back();
+      heading_ = std::vector<double>();  // before the line takes memory of its own
+      road_.line = ReferenceLine(start_, step_, std::move(nodes), first, last);
       return;
     }
     const ReferenceLine::Node last = road_.line.node(steps);
@@ -342,11 +347,12 @@ class CrgFileReader {
 
   void profile() {
     const double z = value("REFERENCE_LINE_START_Z", 0.0), s = value("REFERENCE_LINE_START_S", 0.0);
-    if (slope_.empty() && s == 0.0)
-      road_.line_heights.assign(1, z);
-    else
-      road_.line_heights = summed(z, header_.value("REFERENCE_LINE_END_Z"),
-                                  [&](std::size_t k) { return slope_.empty() ? s : slope_[k]; });
+    road_.line_heights.assign(slope_.empty() && s == 0.0 ? 1 : rows_, z);
+    if (road_.line_heights.size() > 1)
+      sum_up(
+          z, header_.value("REFERENCE_LINE_END_Z"),
+          [&](std::size_t k) { return slope_.empty() ? s : slope_[k]; },
+          [&](std::size_t k) -> double& { return road_.line_heights[k]; });
     if (road_.banking.empty()) road_.banking.assign(1, value("REFERENCE_LINE_START_B", 0.0));
   }
 

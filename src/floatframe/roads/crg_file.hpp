@@ -1,5 +1,5 @@
 #pragma once
-// OpenCRG files (ASAM OpenCRG 1.2): crg_header.hpp says how they look, crg_road.hpp what they mean.
+// OpenCRG files (ASAM OpenCRG 1.2), text or binary; CrgRoad says what they mean.
 // Channels of a row: heights of the long sections, which may be absent ("*missing*", NaN) at the
 // borders and then are those of the last one that is there; heading, slope and banking of the line.
 // Heading and slope of row i are those of the step from row i - 1; the first ones are unused. The
