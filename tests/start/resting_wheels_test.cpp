@@ -27,7 +27,7 @@ struct WheelCase {
   double height = 0.3;  ///< of the hub at the start [m]
 };
 
-/// 300 kg that slide in all directions, on a wheel of 20 kg, 2 kg m2.
+/// 300 kg that slide in all directions, on a wheel of 20 kg, 2 kg m2 about any axis.
 std::string wheel_on_sledge(const WheelCase& x, const std::string& tyre) {
   return fmt::format(
       R"(
@@ -37,7 +37,7 @@ bodies:
   along: {{rigid: {{mass: 0, centre_of_mass: hub}}}}
   across: {{rigid: {{mass: 0, centre_of_mass: hub}}}}
   sledge: {{rigid: {{mass: 300, centre_of_mass: hub, inertia: [10, 10, 10]}}}}
-  wheel: {{rigid: {{mass: 20, centre_of_mass: hub, inertia: [1, 2, 1]}}}}
+  wheel: {{rigid: {{mass: 20, centre_of_mass: hub, inertia: [2, 2, 2]}}}}
 joints:
   x: {{type: prismatic, child: along, at: hub, axis: x}}
   y: {{type: prismatic, parent: along, child: across, at: hub, axis: y}}
@@ -78,7 +78,7 @@ const std::string tmeasy =
     "longitudinal_stiffness: 1.2e+5, lateral_stiffness: 8.0e+4";
 
 void expect_quick(const StaticsResult& s, const std::string& what) {
-  EXPECT_LE(s.iterations, 12) << what;
+  EXPECT_LE(s.iterations, 15) << what;
   EXPECT_LT(s.residual, 1e-6) << what;
 }
 

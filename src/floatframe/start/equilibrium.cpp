@@ -78,9 +78,10 @@ void approach_by_tangent(RelativeFormulation& f, StaticsEquations& statics, VecX
   }
 }
 
-/// Pseudo-transient Newton: fast close to the solution, and finds equilibria of any kind.
+/// Pseudo-transient Newton: fast close to the solution, and finds equilibria of any kind. It ends
+/// where an imbalance below `stalled` times the largest load is not halved.
 void approach(RelativeFormulation& f, StaticsEquations& statics, VecX q, VecX lambda,
-              int& iterations, Best& best) {
+              int& iterations, Best& best, double stalled = 0.0) {
   double mu = 1.0;  // [1/s2]: (mu M + K) x = -r
   double previous = std::numeric_limits<double>::infinity();
   VecX dx, dlambda, q1 = q;
@@ -89,7 +90,7 @@ void approach(RelativeFormulation& f, StaticsEquations& statics, VecX q, VecX la
     statics.linearise(q, lambda, k == 0);
     const double size = statics.size();
     best.offer(q, lambda, f.element_states().values(), statics);
-    if (best.done()) return;
+    if (best.done() || (size > 0.5 * previous && size < stalled * statics.weight)) return;
     if (std::isfinite(previous))
       mu = size < previous ? std::max(mu * 0.1, 1e-2) : std::min(mu * 10.0, 1e6);
     previous = size;
@@ -213,8 +214,26 @@ bool rolls(const Model& model) {
       model.elements, [](const Element& e) { return e.states > 0 && element_kind(e.type).rolls; });
 }
 
-/// What may roll a vehicle on in its equilibrium, as a part of the largest load.
-constexpr double most_rolling = 1e-3;
+/// Parts of the largest load: what may roll a vehicle on in its equilibrium, and an imbalance that
+/// is small enough to look for the directions along which nothing holds it.
+constexpr double most_rolling = 1e-3, most_stalled = 0.2;
+
+/// From the best place of a search, held along such directions. Without a balance that nearly needs
+/// no holding `rolling` tells what it needs.
+Best approach_held(RelativeFormulation& f, StaticsEquations& statics, const Best& from,
+                   int& iterations) {
+  f.element_states().give(from.z);
+  f.element_states().rest();
+  statics.hold_free(from.q, from.lambda);
+  Best best{from.q, from.lambda, from.z, statics.push};
+  if (statics.released()) approach(f, statics, from.q, from.lambda, iterations, best);
+  const double rolling = best.accepted() ? statics.holding(best.push) : 0.0;
+  if (best.accepted() && rolling < most_rolling * best.weight) return best;
+  statics.let_go();
+  Best none;
+  none.rolling = rolling;
+  return none;
+}
 
 Best search(RelativeFormulation& f, StaticsEquations& statics, const VecX& q, int& iterations) {
   const VecX lambda = VecX::Zero(f.constraints()), z = f.element_states().values();
@@ -230,20 +249,16 @@ Best search(RelativeFormulation& f, StaticsEquations& statics, const VecX& q, in
   if (!best.done()) {
     best = begin();
     statics.find_mass(q, lambda);
-    if (rolls(f.model())) statics.hold_free(q, lambda);
-    approach(f, statics, q, lambda, iterations, best);
-    // What is held where more is free than at the equilibrium, as by wheels in the air.
-    if (best.accepted() && statics.holding(best.push) > 1e-9 * best.weight) {
-      statics.hold_free(best.q, best.lambda);
-      best = {best.q, best.lambda, best.z, statics.push};
-      approach(f, statics, VecX(best.q), VecX(best.lambda), iterations, best);
-    }
-    const double rolling = best.accepted() ? statics.holding(best.push) : 0.0;
-    if (statics.released() && !(best.accepted() && rolling < most_rolling * best.weight)) {
-      statics.let_go();
-      best = begin();
-      best.rolling = rolling;
-      approach(f, statics, q, lambda, iterations, best);
+    const bool rolling = rolls(f.model());
+    approach(f, statics, q, lambda, iterations, best, rolling ? most_stalled : 0.0);
+    if (rolling && !best.done()) {
+      best = approach_held(f, statics, best, iterations);
+      if (!best.accepted()) {
+        const double rolled = best.rolling;
+        best = begin();
+        best.rolling = rolled;
+        approach(f, statics, q, lambda, iterations, best);
+      }
     }
   }
   if (!best.accepted()) descend(f, statics, q, lambda, iterations, best);
