@@ -1,5 +1,5 @@
-// Inputs of a vehicle that do nothing, or the opposite, are found at the start; brakes that help the
-// drive, and a stop in a straight line against closed forms.
+// Inputs of a vehicle that do nothing, or the opposite, are found at the start; brakes that help
+// the drive, and a stop in a straight line against closed forms.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,15 +34,36 @@ std::string probe_says(const std::function<void(ModelDescription&)>& change) {
   return sentences_of([&] { require_inputs_that_act(run); });
 }
 
+/// An input that nothing reads.
+void add_idle(ModelDescription& d) {
+  InputDescription idle;
+  idle.name = "idle";
+  d.inputs.push_back(idle);
+}
+
 TEST(InputProbe, NamesInputsThatDoNothing) {
-  EXPECT_EQ(probe_says([](ModelDescription&) {}), "");
-  EXPECT_TRUE(contains(probe_says([](auto& d) { d.vehicle->steering->input = "drive"; }),
-                       "vehicle.steering: found an input 'drive' that turns no wheel"));
-  const std::string drive = probe_says([](auto& d) { d.vehicle->drive->input = "steer"; });
-  EXPECT_TRUE(contains(drive, "vehicle.drive: found an input 'steer' that moves nothing")) << drive;
-  // The reference has wheels of the radius 0.3 m and forces as tyres.
-  EXPECT_TRUE(contains(drive, "of the type force), or a force on the chassis with the ratio 3.333"))
-      << drive;
+  EXPECT_EQ(probe_says([](ModelDescription&) {}), "no error");
+  const std::string steering = probe_says([](auto& d) {
+    add_idle(d);
+    d.vehicle->steering->input = "idle";
+  });
+  EXPECT_TRUE(contains(steering, "vehicle.steering: found an input 'idle' that turns no wheel"));
+  const std::string drive = probe_says([](auto& d) {
+    add_idle(d);
+    d.vehicle->drive->input = "idle";
+  });
+  EXPECT_TRUE(contains(drive, "vehicle.drive: found an input 'idle' that moves nothing"));
+  // The wheels have a radius of 0.3 m, and forces as tyres.
+  EXPECT_TRUE(
+      contains(drive, "of the type force), or a force on the chassis with the ratio 3.333"));
+}
+
+TEST(VehicleSetup, RefusesOneInputForTwoRoles) {
+  ModelDescription d = input_model();
+  d.vehicle->drive->input = "steer";
+  EXPECT_TRUE(contains(sentences_of([&] { input_setup(std::move(d), 20.0); }),
+                       "vehicle.drive: found the input 'steer', which is that of vehicle.steering "
+                       "already, expected another"));
 }
 
 TEST(InputProbe, NamesInputsOfTheWrongSign) {

@@ -2,11 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "floatframe/vehicle/vehicle_parts.hpp"
 
 namespace floatframe {
 namespace {
+
+/// One input cannot do two things.
+void require_own_inputs(const VehicleDescription& v, ErrorList& errors) {
+  const std::pair<const char*, const std::optional<VehicleInput>*> roles[] = {
+      {"steering", &v.steering}, {"drive", &v.drive}, {"brake", &v.brake}};
+  for (const auto& [key, input] : roles)
+    for (const auto& [other, first] : roles) {
+      if (first == input) break;
+      if (!*input || !*first || (*input)->input != (*first)->input) continue;
+      const std::string path = std::string("vehicle.") + key;
+      errors.add({(*input)->origin.mark, ErrorCode::duplicate,
+                  path + ": found the input '" + (*input)->input + "', which is that of vehicle." +
+                      other + " already, expected another",
+                  1, path});
+    }
+}
 
 void require_roles(const ModelDescription& d, const std::string& manoeuvre,
                    const VehicleNeeds& needs) {
@@ -25,6 +43,7 @@ void require_roles(const ModelDescription& d, const std::string& manoeuvre,
   if (needs.drive && !v.drive) lacks("drive");
   if (needs.brake && !v.brake) lacks("brake");
   if (needs.width && v.width == 0.0) lacks("width");
+  require_own_inputs(v, errors);
   if (v.axles.size() < 2)
     errors.add({v.origin.of("axles"), ErrorCode::wrong_count,
                 "vehicle.axles: found one axle, expected two or more for " + manoeuvre, 1,
