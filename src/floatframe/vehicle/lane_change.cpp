@@ -33,6 +33,14 @@ struct TrackFrame {
   }
 };
 
+/// l of beta = l kappa: that of the rear axle at low speeds, none from 15 m/s on, where the rear
+/// slip angle makes up for it (docs/vehicle.md).
+double sideslip_length(double rear, double speed) {
+  constexpr double along_the_path = 15.0;  // [m/s]
+  const double part = speed / along_the_path;
+  return std::max(0.0, rear * (1.0 - part * part));
+}
+
 void note_largest(LaneChangeResult& out, const VehicleInstant& now) {
   const auto larger = [](double& most, double value) { most = std::max(most, std::abs(value)); };
   larger(out.largest_lateral_acceleration, now.lateral_acceleration);
@@ -53,7 +61,8 @@ LaneChangeResult lane_change(VehicleRun& run, double speed) {
   const TrackFrame track(run.now().view);
   const VehicleOutline outline{
       .width = vehicle.width, .front = vehicle.front, .rear = vehicle.rear};
-  std::vector<PathPoint> points = lane_change_path(outline);
+  std::vector<PathPoint> points =
+      lane_change_path(outline, sideslip_length(run.axles().rear, speed));
   for (PathPoint& p : points) p = track.world(p);
   follower.follow(DrivenPath(points));
 

@@ -16,12 +16,13 @@ constexpr int lane_passes = 8;
 struct LaneConditions {
   std::vector<VecX> rows;
   std::vector<double> limits;
-  /// y_i + X y'_i between two edges.
-  void add(Eigen::Index i, Eigen::Index n, double X, double right, double left) {
+  /// y_i + X y'_i - X l y''_i between two edges; `bend`: X l.
+  void add(Eigen::Index i, Eigen::Index n, double X, double bend, double right, double left) {
     VecX row = VecX::Zero(n);
-    row[i] = 1.0;
-    row[i + 1] += 0.5 * X / station;
-    row[i - 1] -= 0.5 * X / station;
+    const double slope = 0.5 * X / station, curvature = bend / (station * station);
+    row[i] = 1.0 + 2.0 * curvature;
+    row[i + 1] = slope - curvature;
+    row[i - 1] = -slope - curvature;
     rows.push_back(row);
     limits.push_back(left);
     rows.push_back(-row);
@@ -29,7 +30,8 @@ struct LaneConditions {
   }
 };
 
-LaneConditions lane_conditions(const VehicleOutline& vehicle, double margin, Eigen::Index n) {
+LaneConditions lane_conditions(const VehicleOutline& vehicle, double sideslip, double margin,
+                               Eigen::Index n) {
   LaneConditions out;
   for (const LaneGate& gate : lane_gates(vehicle.width)) {
     const double keep =
@@ -39,7 +41,8 @@ LaneConditions lane_conditions(const VehicleOutline& vehicle, double margin, Eig
       const double low = std::max(-vehicle.rear, gate.begin - x),
                    high = std::min(vehicle.front, gate.end - x);
       if (low > high) continue;
-      for (const double X : {low, high}) out.add(i, n, X, gate.right + keep, gate.left - keep);
+      for (const double X : {low, high})
+        out.add(i, n, X, X * sideslip, gate.right + keep, gate.left - keep);
     }
   }
   return out;
@@ -77,10 +80,11 @@ VecX nonnegative_multipliers(const MatX& G, const VecX& c) {
 
 }  // namespace
 
-std::vector<PathPoint> lane_change_path(const VehicleOutline& vehicle, double margin) {
+std::vector<PathPoint> lane_change_path(const VehicleOutline& vehicle, double sideslip,
+                                        double margin) {
   const double end = lane_gates(vehicle.width).back().end + vehicle.front + vehicle.rear;
   const Eigen::Index n = 2 + Eigen::Index(std::ceil((end - lane_begin) / station));
-  const LaneConditions conditions = lane_conditions(vehicle, margin, n);
+  const LaneConditions conditions = lane_conditions(vehicle, sideslip, margin, n);
   const Eigen::Index m = std::ssize(conditions.rows), free = n - held_stations;
   MatX A(m, free);
   for (Eigen::Index k = 0; k < m; ++k) A.row(k) = conditions.rows[k].tail(free).transpose();
