@@ -229,6 +229,33 @@ struct Delay {
   double pade = 2.0;  ///< order of its Pade approximation in linear systems, a whole number
 };
 
+/// The road-wheel angle with which a vehicle follows a path (model/path_law.hpp), in the axes of the
+/// world: a cubic spline through points, or a circle.
+struct PathFollowing {
+  SignalDescription x, y;       ///< of the point that follows the path [m]
+  SignalDescription vx, vy;     ///< its velocity [m/s]
+  SignalDescription yaw_rate;   ///< [rad/s]
+  MatX points = {};             ///< n x 2: x, y [m]; or ...
+  MatX circle = {};             ///< ... 1 x 3: centre and radius [m], positive: to the left
+  bool closed = false;          ///< the points are a ring
+  double wheelbase = 0.0;       ///< [m]
+  double course_gain = 10.0;    ///< omega_0 [1/s]
+  double offset_gain = 0.5;     ///< omega_e [1/s]
+  double preview = 0.15;        ///< T [s]
+  double yaw_gain = 0.08;       ///< k_r [s]
+  double integral_time = 0.05;  ///< T_0 [s]
+  double largest_angle = 0.7;   ///< [rad]
+};
+
+/// The force that holds a vehicle at a speed: m (k_p (v_d - v) + k_i times its integral), clipped.
+struct SpeedControl {
+  SignalDescription measured, target;            ///< v, v_d [m/s]
+  double mass = 0.0;                             ///< [kg]
+  double proportional = 2.0;                     ///< k_p [1/s]
+  double integral = 1.0;                         ///< k_i [1/s2]
+  std::optional<double> lower = {}, upper = {};  ///< [N]
+};
+
 // clang-format off
 #define FLOATFRAME_ELEMENTS(entry)      \
   entry(spring_damper, SpringDamper)    \
@@ -280,7 +307,9 @@ struct Delay {
   entry(magic_formula_tyre, MagicFormulaTyre) \
   entry(tmeasy_tyre, TmeasyTyre) \
   entry(calspan_tyre, CalspanTyre) \
-  entry(aerodynamic_load, AerodynamicLoad)
+  entry(aerodynamic_load, AerodynamicLoad) \
+  entry(path_follower, PathFollowing) \
+  entry(speed_controller, SpeedControl)
 // clang-format on
 
 #define FLOATFRAME_ENTRY(name, Keys) name,

@@ -19,7 +19,7 @@ namespace {
 
 PathFollower straight_on(const VehicleRun& run) {
   const DriverView& v = run.now().view;
-  return PathFollower(straight_path({v.x, v.y}, v.yaw), run.axles().wheelbase());
+  return PathFollower(DrivenPath::straight({v.x, v.y}, v.yaw), run.axles().wheelbase());
 }
 
 SpeedController speed_controller(const VehicleRun& run) {
@@ -156,7 +156,7 @@ SteadyCircleResult steady_circle(VehicleRun& run, const SteadyCircleOptions& o) 
   double speed = first_speed(o);
   drive_trimmed(run, follower, controller, speed);
   const DriverView& v = run.now().view;
-  follower.follow(circle_path({v.x, v.y}, v.yaw, o.right ? -o.radius : o.radius));
+  follower.follow(DrivenPath::circle({v.x, v.y}, v.yaw, o.right ? -o.radius : o.radius));
   SteadyCircleResult out;
   for (int k = 1; (k - 1) * o.spacing < last * (1.0 - 1e-9); ++k) {
     const double target = speed_at(k * o.spacing);

@@ -86,7 +86,8 @@ void VehicleRun::read() {
   const double vx = measured(Measured::vx), vy = measured(Measured::vy);
   v.speed = c * vx + s * vy;
   now_.path_speed = std::hypot(vx, vy);
-  now_.sideslip = std::atan2(c * vy - s * vx, v.speed);
+  v.lateral = c * vy - s * vx;
+  now_.sideslip = std::atan2(v.lateral, v.speed);
   now_.lateral_acceleration = c * measured(Measured::ay) - s * measured(Measured::ax);
   now_.roll = measured(Measured::roll);
 }
