@@ -1,6 +1,5 @@
 #pragma once
-// Roads: profiles, height over x, a piecewise polynomial plus cosine bumps; and surfaces over x and
-// y, which are added (RoadSurface).
+// Roads: profiles over x, a piecewise polynomial plus cosine bumps, and surfaces that are added.
 #include "floatframe/model/model.hpp"
 #include "floatframe/roads/surface_point.hpp"
 

@@ -3,6 +3,13 @@
 // with $NAME and end with $; comments follow * or !. A line of $$ ends it, the numbers follow:
 //   LRFI, LDFI   text, 10 or 20 characters a number, 80 a line, each row on new lines
 //   KRBI, KDBI   IEEE floats or doubles, the most significant byte first, one after the other
+// Channels of a row: heights of the long sections, of which some may be absent ("*missing*", NaN)
+// and then are those of their right neighbour, or of the first one that is there; heading, slope
+// and banking of the line. Heading and slope of row i are those of the step from row i - 1; the
+// first ones are unused. The line is summed up from its beginning, and if the header gives its end
+// as well, from there too: the mean of both, weighted by the distance, ends where the header says.
+//   columns   by number: LONG_SECTION_V_RIGHT, _LEFT, _INCREMENT (0.01 m if none is given, and as
+//             far to the left as to the right); or "at v = "
 #include <cstddef>
 #include <map>
 #include <optional>

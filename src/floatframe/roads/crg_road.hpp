@@ -3,16 +3,12 @@
 // line and columns along it,
 //   z(u, v) = grid(u, v) + line(u) + banking(u) v                                           (1)
 // with the height of the line integrated from its slope. line and banking are linear between rows,
-// the grid bilinear, as OpenCRG has it, or cubic, whose slope does not jump. In
-// (1) u and v are those within the grid; outside each direction has a mode:
-//   none     there is no road: the height is not a number
-//   zero     z = offset, also without line and banking
-//   keep     the border goes on, plus the offset
-//   repeat   the grid from its beginning again
-//   reflect  back and forth
-// z(x, y) follows with the place beside the line, and its derivatives by the
-// chain rule. Numbers are kept as the file has them, KRBI as floats, so that none is rounded and
-// memory stays below the size of the file.
+// the grid bilinear, as OpenCRG has it, or cubic, whose slope does not jump. In (1) u and v are
+// those within the grid; outside each direction has a mode: none (no road: the height is not a
+// number), zero (z = offset, also without line and banking), keep (the border goes on, plus the
+// offset), repeat, reflect (back and forth). z(x, y) follows with the place beside the line, and
+// its derivatives by the chain rule. Numbers are kept as the file has them, KRBI as floats, so that
+// none is rounded and memory stays below the size of the file.
 #include <string>
 #include <vector>
 
