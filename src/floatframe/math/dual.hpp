@@ -43,6 +43,18 @@ struct DualNumber {
   friend DualNumber operator*(DualNumber a, const DualNumber& b) noexcept { return a *= b; }
   friend DualNumber operator/(DualNumber a, const DualNumber& b) noexcept { return a /= b; }
   friend DualNumber operator-(const DualNumber& a) noexcept { return {-a.v, -a.d}; }
+  // A constant has no derivatives to multiply.
+  friend DualNumber operator+(const DualNumber& a, double b) noexcept { return {a.v + b, a.d}; }
+  friend DualNumber operator+(double a, const DualNumber& b) noexcept { return {a + b.v, b.d}; }
+  friend DualNumber operator-(const DualNumber& a, double b) noexcept { return {a.v - b, a.d}; }
+  friend DualNumber operator-(double a, const DualNumber& b) noexcept { return {a - b.v, -b.d}; }
+  friend DualNumber operator*(const DualNumber& a, double b) noexcept { return {a.v * b, a.d * b}; }
+  friend DualNumber operator*(double a, const DualNumber& b) noexcept { return {a * b.v, a * b.d}; }
+  friend DualNumber operator/(const DualNumber& a, double b) noexcept { return {a.v / b, a.d / b}; }
+  friend DualNumber operator/(double a, const DualNumber& b) noexcept {
+    const double q = a / b.v;
+    return {q, -(q / b.v) * b.d};
+  }
   friend bool operator==(const DualNumber& a, const DualNumber& b) noexcept { return a.v == b.v; }
   friend auto operator<=>(const DualNumber& a, const DualNumber& b) noexcept { return a.v <=> b.v; }
 };

@@ -37,15 +37,15 @@
 
 namespace floatframe {
 
-/// What the forces of a tyre are made of; angles in rad. `load` is positive.
-template <class S>
+/// What the forces of a tyre are made of; angles in rad. `load` is positive. B: the scalar of what
+/// the slips do not change, double in steps.
+template <class S, class B = S>
 struct TyreInput {
-  S load;               ///< F_z [N]
+  B load;               ///< F_z [N]
   S kappa, tan_alpha;   ///< (2), with their sign at forward and backward rolling: -V_sx/|V_cx|, ...
-  S camber;             ///< gamma > 0: the top leans to the right
-  S v_cx, v_sx, v_sy;   ///< the motion itself [m/s]
-  S spin;               ///< Omega [rad/s]
-  S deflection;         ///< d [m]
+  B camber;             ///< gamma > 0: the top leans to the right
+  B v_cx;               ///< the motion itself [m/s]
+  B deflection;         ///< d [m]
   double friction = 1;  ///< factor of the road
 };
 
@@ -75,7 +75,7 @@ struct TyreLengths {
 ///   S load(keys, data, S deflection, S camber, S spin)   without damping; smooth below 0 as well
 ///   S effective_radius(keys, data, S load, S deflection, S spin)
 ///   TyreLengths<S> lengths(keys, data, S load, S camber, double friction)
-///   TyreForces<S> forces(keys, data, const TyreInput<S>&)
+///   TyreForces<S> forces(keys, data, const TyreInput<S, B>&)   over B as well: S or double
 ///   S energy(keys, data, S deflection)                     may be absent
 /// S: double, Dual, DualNumber<1> and DualNumber<4>.
 
@@ -107,15 +107,13 @@ S fading(const S& speed, double full) noexcept {
   return 0.5 + 0.5 * cos(S((std::numbers::pi / full) * speed));
 }
 
-/// What the horizontal forces depend on beside the states.
-template <class S>
+/// What the horizontal forces depend on beside the states: S is the scalar of the slips.
+template <class S, class B = S>
 struct RollingMotion {
-  S load, deflection, camber, v_cx, v_sx, v_sy, spin;
+  B load, deflection, camber, v_cx;
+  S v_sx, v_sy;
+  B spin;
   double friction = 1.0;
-  template <class T>
-  RollingMotion<T> over() const noexcept {
-    return {T(load), T(deflection), T(camber), T(v_cx), T(v_sx), T(v_sy), T(spin), friction};
-  }
 };
 
 /// Forces, and the rates of the states.
@@ -128,9 +126,9 @@ struct RollingForces {
 };
 
 /// L of (4)
-template <class S>
-S rolling_limit(bool falls, const S& limit, const S& sigma, const S& still) noexcept {
-  const S least = value_of(limit) > rolling::least_limit ? limit : S(rolling::least_limit);
+template <class S, class B>
+S rolling_limit(bool falls, const B& limit, const B& sigma, const S& still) noexcept {
+  const B least = value_of(limit) > rolling::least_limit ? limit : B(rolling::least_limit);
   if (!falls) return least;
   return least + (S(1.0) - still) * (rolling::reach * sigma);
 }
@@ -152,17 +150,17 @@ void hold_deflections(const S& L_x, const S& L_y, const S& u, const S& v,
 }
 
 /// (1) to (4), and the law. `mirrored`: the data are of the other side.
-template <class Law, class S>
+template <class Law, class S, class B>
 RollingForces<S> rolling_forces(const typename Law::Keys& keys, const typename Law::Data& data,
-                                const RollingMotion<S>& m, const S* states,
+                                const RollingMotion<S, B>& m, const S* states,
                                 const double* rest_slopes) noexcept {
   using std::sqrt;
   RollingForces<S> out;
-  const S speed = magnitude(m.v_cx);
+  const B speed = magnitude(m.v_cx);
   if (states) {
     const S& u = states[0];
     const S& v = states[1];
-    const TyreLengths<S> l = Law::lengths(keys, data, m.load, m.camber, m.friction);
+    const TyreLengths<B> l = Law::lengths(keys, data, m.load, m.camber, m.friction);
     const S slow = fading(S(sqrt(S(m.v_cx * m.v_cx + m.v_sy * m.v_sy))), keys.damping_speed);
     const S t_x = slow * (keys.rest_damping ? S(*keys.rest_damping / l.stiffness_x)
                                             : S(rolling::rest_time)),
@@ -185,16 +183,15 @@ RollingForces<S> rolling_forces(const typename Law::Keys& keys, const typename L
     out.energy = 0.5 * (l.stiffness_x * u * u + l.stiffness_y * v * v);
   } else {
     const double least = keys.damping_speed;
-    const S along =
-        value_of(speed) < least ? S((speed * speed + least * least) / (2.0 * least)) : speed;
+    const B along =
+        value_of(speed) < least ? B((speed * speed + least * least) / (2.0 * least)) : speed;
     out.kappa = -m.v_sx / along;
     out.tan_alpha = m.v_sy / along;
   }
   const double side = Law::mirrored(keys, data) ? -1.0 : 1.0;
-  out.of =
-      Law::forces(keys, data,
-                  TyreInput<S>{m.load, out.kappa, S(side * out.tan_alpha), S(side * m.camber),
-                               m.v_cx, m.v_sx, S(side * m.v_sy), m.spin, m.deflection, m.friction});
+  out.of = Law::forces(keys, data,
+                       TyreInput<S, B>{m.load, out.kappa, S(side * out.tan_alpha),
+                                       B(side * m.camber), m.v_cx, m.deflection, m.friction});
   out.of.F_y *= side;
   out.of.M_x *= side;
   out.of.M_z *= side;
@@ -347,13 +344,14 @@ void rolling_tyre_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
       add_rolling_rows(in, c, l.stiffness, keys.damping, keys.spinning, {}, out);
   } else if constexpr (std::is_same_v<S, double>) {
     using T = DualNumber<4>;
-    RollingMotion<T> at = m.template over<T>();
+    RollingMotion<T, double> at{m.load, m.deflection, m.camber, m.v_cx,
+                                m.v_sx, m.v_sy,       m.spin,   m.friction};
     if (keys.spinning) at.v_sx = T::variable(m.v_sx, 2);
     at.v_sy = T::variable(m.v_sy, 3);
     const T z[] = {T::variable(states ? in.state(0) : 0.0, 0),
                    T::variable(states ? in.state(1) : 0.0, 1)};
     const RollingForces<T> f =
-        rolling_forces<Law, T>(keys, data, at, states ? z : nullptr, in.rest_slopes);
+        rolling_forces<Law>(keys, data, at, states ? z : nullptr, in.rest_slopes);
     const RollingForces<double> value{
         {f.of.F_x.v, f.of.F_y.v, f.of.M_x.v, f.of.M_y.v, f.of.M_z.v, f.of.friction_use.v},
         f.kappa.v,
@@ -374,7 +372,7 @@ void rolling_tyre_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
     add_rolling_rows(in, c, l.stiffness, keys.damping, keys.spinning, f, out);
   } else {
     const RollingForces<S> f =
-        rolling_forces<Law, S>(keys, data, m, states ? in.states : nullptr, in.rest_slopes);
+        rolling_forces<Law>(keys, data, m, states ? in.states : nullptr, in.rest_slopes);
     put_rolling_forces(c, m, r_e, keys.spinning, f, out);
     out.energy = f.energy;
     if (states) {

@@ -1,5 +1,6 @@
 #pragma once
-// Pieces of the Magic Formula over a scalar S, double or dual number:
+// Pieces of the Magic Formula over a scalar S, double or dual number; another one, B, is that of
+// what the slips do not change, and E of either:
 //   argument   A(x) = B x - E (B x - atan(B x))
 //   force      D sin(C atan A),   weight and trail   cos(C atan A)
 // E is limited to 1: above, the curve would turn back. Source: H. B. Pacejka, Tire and Vehicle
@@ -61,20 +62,20 @@ S parabola(const double (&a)[3], const S& x) noexcept {
 }
 
 /// B x - E (B x - atan(B x)), E at most 1.
-template <class S>
-S magic_argument(const S& Bx, const S& E) noexcept {
+template <class S, class B>
+S magic_argument(const S& Bx, const B& E) noexcept {
   if (value_of(E) > 1.0) return arctan(Bx);
   return Bx - E * (Bx - arctan(Bx));
 }
 /// sin(C atan(B x - E (B x - atan(B x)))).
-template <class S>
-S magic_sine(double C, const S& Bx, const S& E) noexcept {
+template <class S, class B>
+S magic_sine(double C, const S& Bx, const B& E) noexcept {
   using std::sin;
   return sin(S(C * arctan(magic_argument(Bx, E))));
 }
 /// cos(C atan(B x - E (B x - atan(B x)))).
-template <class S>
-S magic_cosine(double C, const S& Bx, const S& E) noexcept {
+template <class S, class B>
+S magic_cosine(double C, const S& Bx, const B& E) noexcept {
   using std::cos;
   return cos(S(C * arctan(magic_argument(Bx, E))));
 }

@@ -150,8 +150,8 @@ MagicLengths<S> magic_lengths(const MagicTyre& t, const S& load, const S& camber
   s.friction = 1.0;
   s.kappa = 0.0;
   s.alpha = 0.0;
-  const MagicLongitudinal<S> x = magic_longitudinal(t, s);
-  const MagicLateral<S> y = magic_lateral(t, s, s.gamma);
+  const MagicLongitudinal<S, S> x = magic_longitudinal(t, s);
+  const MagicLateral<S, S> y = magic_lateral(t, s, s.gamma);
   const S Kx = x.K * load, Ky = abs(S(y.K * load));
   const S square = t.gamma_y * t.gamma_y * s.gamma * s.gamma;
   l.peak_x = magic_peak(t.Cx, parabola(t.Ex, s.dfz)) * t.Cx * x.mu / x.K;

@@ -45,11 +45,11 @@ struct CalspanTyreLaw {
     l.limit_y = 3.0 * most / l.stiffness_y;
     return l;
   }
-  template <class S>
-  static TyreForces<S> forces(const Keys&, const Data& data, const TyreInput<S>& x) noexcept {
+  template <class S, class B>
+  static TyreForces<S> forces(const Keys&, const Data& data, const TyreInput<S, B>& x) noexcept {
     using std::atan2;
     const CalspanForces<S> of =
-        calspan_forces(data, x.load, S(x.friction), S(atan2(x.tan_alpha, S(1.0))), x.camber);
+        calspan_forces(data, x.load, x.friction, S(atan2(x.tan_alpha, S(1.0))), x.camber);
     TyreForces<S> f;
     f.F_y = of.Fy;
     f.M_z = of.Mz;

@@ -54,14 +54,14 @@ struct MagicTyreLaw {
     l.limit_y = friction * m.peak_y * l.sigma_y;
     return l;
   }
-  template <class S>
-  static TyreForces<S> forces(const Keys&, const Data& data, const TyreInput<S>& x) noexcept {
+  template <class S, class B>
+  static TyreForces<S> forces(const Keys&, const Data& data, const TyreInput<S, B>& x) noexcept {
     using std::sqrt;
     // The generic law turns and fades the rolling moment of a wheel that rolls forwards.
-    const S forwards = 1.0 + data.tyre.turning_speed;
+    const double forwards = 1.0 + data.tyre.turning_speed;
     const MagicForces<S> f = magic_forces(
-        data.tyre, MagicInput<S>{x.load, x.kappa, x.tan_alpha, x.camber, x.v_cx,
-                                 value_of(x.v_cx) < 0.0 ? S(-forwards) : forwards, x.friction});
+        data.tyre, MagicInput<S, B>{x.load, x.kappa, x.tan_alpha, x.camber, x.v_cx,
+                                    value_of(x.v_cx) < 0.0 ? -forwards : forwards, x.friction});
     TyreForces<S> out;
     out.F_x = f.Fx;
     out.F_y = f.Fy;

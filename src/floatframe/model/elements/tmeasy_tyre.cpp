@@ -69,16 +69,17 @@ struct TmeasyTyreLaw {
     l.limit_y = mu * tmeasy_linear(t.y.maximum_slip, t.nominal_load, held) * l.sigma_y;
     return l;
   }
-  template <class S>
-  static TyreForces<S> forces(const Keys& keys, const Data& data, const TyreInput<S>& x) noexcept {
+  template <class S, class B>
+  static TyreForces<S> forces(const Keys& keys, const Data& data,
+                              const TyreInput<S, B>& x) noexcept {
     const S tread = tmeasy_tread_speed(S(1.0 + sense_of_rolling(x.v_cx) * x.kappa));
-    const TmeasyForces<S> of = tmeasy_forces(data.tyre, x.load, S(x.friction * keys.friction),
+    const TmeasyForces<S> of = tmeasy_forces(data.tyre, x.load, B(x.friction * keys.friction),
                                              S(x.kappa / tread), S(-x.tan_alpha / tread));
     TyreForces<S> f;
     f.F_x = of.Fx;
     f.F_y = of.Fy;
     f.M_z = of.Mz;
-    f.M_y = -keys.rolling_resistance * x.load * S(keys.radius - x.deflection);
+    f.M_y = -keys.rolling_resistance * x.load * B(keys.radius - x.deflection);
     f.friction_use = of.friction_use;
     return f;
   }
