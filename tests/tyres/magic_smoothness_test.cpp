@@ -119,6 +119,28 @@ TEST(MagicLoads, FollowTheForcesWithExactDerivatives) {
   }
 }
 
+// Spin and camber make a tyre larger: its load begins at zero nevertheless.
+TEST(MagicLoads, BeginAtZero) {
+  for (const char* name :
+       {"a_205_60R15_mf61.tir", "b_mf61.tir", "b_mf62.tir", "c_235_60R16_mf52.tir"})
+    for (const double camber : {-0.1, 0.0, 0.05}) {
+      const MagicTyre tyre = magic_tyre_of(name);
+      const double spin = 120.0;
+      const auto load = [&](double radius) {
+        return magic_load(tyre, radius, camber, spin, 0.0, 0.0);
+      };
+      double low = 0.9 * tyre.R0, high = 1.1 * tyre.R0;
+      for (int k = 0; k < 60; ++k) {
+        const double middle = 0.5 * (low + high);
+        (load(middle) > 0.0 ? low : high) = middle;
+      }
+      EXPECT_LT(load(low - 1e-9), 1e-3) << name << " " << camber;
+      EXPECT_GE(load(low), 0.0);
+      for (const double up : {1e-3, 0.1, 10.0, 1e4})
+        EXPECT_LE(load(high + up), 0.0) << name << " " << camber << " " << up;
+    }
+}
+
 /// Power of the forces on the sliding of the contact point; without camber a symmetric tyre never
 /// delivers any.
 TEST(MagicFormula, SlipOfASymmetricTyreTakesPower) {

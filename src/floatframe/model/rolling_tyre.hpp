@@ -72,7 +72,8 @@ struct TyreLengths {
 ///   double radius(const Keys&, const Data&)        unloaded [m]
 ///   bool mirrored(const Keys&, const Data&)        its data are of the other side
 /// and, templates over S:
-///   S load(keys, data, S deflection, S camber, S spin)   without damping; smooth below 0 as well
+///   S load(keys, data, S deflection, S camber, S spin)   without damping; below 0 in the air, and
+///                                                        smooth there as well
 ///   S effective_radius(keys, data, S load, S deflection, S spin)
 ///   TyreLengths<S> lengths(keys, data, S load, S camber, double friction)
 ///   TyreForces<S> forces(keys, data, const TyreInput<S, B>&)   over B as well: S or double
@@ -217,6 +218,7 @@ RollingContact<S> contact_of_tyre(const PortsOf<S>& in) noexcept {
 template <class S>
 struct RollingLoad {
   S deflection = 0.0, load = 0.0;
+  double spring = 0.0;     ///< the load without damping: positive where the tyre touches
   double stiffness = 0.0;  ///< of doubles
   bool touches = false;
 };
@@ -237,8 +239,9 @@ RollingLoad<S> rolling_load(const PortsOf<S>& in, const RollingContact<S>& c) no
   } else {
     l.load = Law::load(keys, data, l.deflection, camber, c.spin);
   }
+  l.spring = value_of(l.load);
   l.load += keys.damping * c.sinking;
-  l.touches = in.branch == free_branch ? value_of(l.deflection) > 0.0 && value_of(l.load) > 0.0
+  l.touches = in.branch == free_branch ? l.spring > 0.0 && value_of(l.load) > 0.0
                                        : RollingBranch{in.branch}.touches();
   return l;
 }

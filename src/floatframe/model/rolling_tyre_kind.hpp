@@ -135,7 +135,7 @@ BranchSide rolling_side(const Ports& in) noexcept {
   const bool pieces = in.keys<typename Law::Keys>().contact == TyreContact::point;
   const auto branch_of = [&](std::size_t stretch) noexcept {
     const auto [l, x] = at(RollingBranch::of(stretch, false));
-    return RollingBranch::of(stretch, l.deflection > 0.0 && l.load > 0.0);
+    return RollingBranch::of(stretch, l.spring > 0.0 && l.load > 0.0);
   };
   if (in.branch == free_branch) {
     const double x = contact_of_tyre<Law>(in).x;
@@ -143,9 +143,9 @@ BranchSide rolling_side(const Ports& in) noexcept {
   }
   const RollingBranch held{in.branch};
   const auto [l, x] = at(in.branch);
-  // The force expressed as a depth.
-  const double push = l.load / (l.stiffness > 0.0 ? l.stiffness : 1.0);
-  const double touch = held.touches() ? -push : std::min(l.deflection, push);
+  // Forces expressed as depths.
+  const double stiffness = l.stiffness > 0.0 ? l.stiffness : 1.0, push = l.load / stiffness;
+  const double touch = held.touches() ? -push : std::min(l.spring / stiffness, push);
   if (pieces) {
     const StretchSide s = stretch_side(road, held.stretch(), x);
     if (s.beyond > touch) return {s.beyond, branch_of(s.next)};

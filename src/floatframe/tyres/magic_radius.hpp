@@ -24,28 +24,38 @@ S free_radius(const MagicTyre& t, const S& spin) noexcept {
   return t.R0 * (t.q_re0 + t.q_v1 * turn * turn);
 }
 
+/// rho of 6.2: what camber adds to R_omega - Rl. Far in the air it grows no further.
+template <class S>
+S cambered_deflection(const MagicTyre& t, const S& radius, const S& free, const S& gamma) noexcept {
+  using std::abs, std::cos, std::sin;
+  constexpr double far = 1.1;
+  S rho = free - radius;
+  const S tilted = rho;
+  if (t.q_cam[0] != 0.0 || t.q_cam[1] != 0.0) {
+    const S near = value_of(radius) < far * value_of(free) ? radius : S(far * free);
+    const S shape =
+        (t.q_cam[0] + t.q_cam[1] * near) * (near / free) / (t.q_cam[0] + t.q_cam[1] * free);
+    rho += shape * shape * (t.tread / 8.0) * abs(S(sin(gamma) / cos(gamma)));
+  }
+  return rho - t.q_cam[2] * tilted * abs(gamma);
+}
+
 /// Load [N] of a loaded radius [m] without damping, with the forces Fx and Fy [N]; in the air it
-/// continues in a straight line below zero.
+/// continues in a straight line below zero, so that it is zero where the tyre begins to touch.
 template <class S>
 S magic_load(const MagicTyre& t, const S& radius, const S& camber, const S& spin, const S& Fx,
              const S& Fy) noexcept {
-  using std::abs, std::cos, std::pow, std::sin;
+  using std::abs, std::pow;
   const S free = free_radius(t, spin);
   const S faster = 1.0 + t.q_v2 * t.R0 / t.V0 * abs(spin);
-  S rho = free - radius;
-  if (!(value_of(rho) > 0.0)) return faster * (t.qz[0] / t.R0) * rho;
   const S gamma = t.mirror * camber;
+  const bool mf62 = t.version == MagicVersion::mf62;
+  const S rho = mf62 ? cambered_deflection(t, radius, free, gamma) : S(free - radius);
+  if (!(value_of(rho) > 0.0)) return faster * (t.qz[0] / t.R0) * rho;
   S side = t.q_fcy * t.mirror * Fy / t.Fz0;
-  if (t.version == MagicVersion::mf62) {
+  if (mf62) {
     const S ratio = radius / free;
     const S skew = t.q_fys[0] + (t.q_fys[1] + t.q_fys[2] * ratio) * ratio;
-    const S tilted = rho;
-    if (t.q_cam[0] != 0.0 || t.q_cam[1] != 0.0) {
-      const S shape = (t.q_cam[0] + t.q_cam[1] * radius) * ratio / (t.q_cam[0] + t.q_cam[1] * free);
-      rho += shape * shape * (t.tread / 8.0) * abs(S(sin(gamma) / cos(gamma)));
-    }
-    rho -= t.q_cam[2] * tilted * abs(gamma);
-    if (!(value_of(rho) > 0.0)) return faster * (t.qz[0] / t.R0) * rho;
     side = t.q_fcy * (t.mirror * Fy - skew * gamma) / t.Fz0;
     if (t.q_fcy2 != 0.0) side = side * pow(S(rho / t.R0), t.q_fcy2);
   }
@@ -122,7 +132,8 @@ S magic_peak(double C, const S& E) noexcept {
     slope = 1.0 - e * (1.0 - 1.0 / (1.0 + y * y));
     const double change = (target - y + e * (y - std::atan(y))) / std::max(slope, 1e-6);
     y = std::clamp(y + change, 0.0, farthest);
-    if (std::abs(change) <= 1e-13 * y || y == farthest) break;
+    // What is left is the square of it, and the last line takes that as well.
+    if (std::abs(change) <= 1e-5 * y || y == farthest) break;
   }
   if (y == farthest || value_of(E) > 1.0) return y;
   return y + (target - y + E * (y - std::atan(y))) / slope;

@@ -75,7 +75,7 @@ struct MagicTyreLaw {
   template <class S>
   static S energy(const Keys&, const Data& data, const S& deflection) noexcept {
     const MagicTyre& t = data.tyre;
-    const S rho = deflection + t.R0 * (t.q_re0 - 1.0), x = rho / t.R0;
+    const S rho = deflection + t.R0 * (t.q_re0 - 1.0), x = at_least(S(rho / t.R0), 0.0);
     return t.R0 * x * x * (0.5 * t.qz[0] + t.qz[1] / 3.0 * x);
   }
 };

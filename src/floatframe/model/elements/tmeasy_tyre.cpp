@@ -1,5 +1,5 @@
 // TMeasy tyre (tyres/tmeasy.hpp) in the contact and with the states of rolling_tyre.hpp; ISO-W.
-//   load        a1 d + a2 d^2, whose slopes at pn and 2 pn are c1, c2:
+//   load        a1 d + a2 d^2, a1 d in the air, whose slopes at pn and 2 pn are c1, c2:
 //               a2 = (c2^2 - c1^2)/(4 pn), a1 = sqrt(2 c1^2 - c2^2)
 //   radius      r_e = R - (1 - q) d, q = rolling_radius
 //   slips       with s = V_cx/sqrt(V_cx^2 + v_r^2), the sense of rolling, and the speed of the
@@ -40,7 +40,7 @@ struct TmeasyTyreLaw {
   static bool mirrored(const Keys&, const Data&) noexcept { return false; }
   template <class S>
   static S load(const Keys&, const Data& data, const S& d, const S&, const S&) noexcept {
-    return d * (data.a1 + data.a2 * d);
+    return value_of(d) > 0.0 ? S(d * (data.a1 + data.a2 * d)) : S(data.a1 * d);
   }
   template <class S>
   static S effective_radius(const Keys& keys, const Data&, const S&, const S& d,
