@@ -215,15 +215,19 @@ TEST(MagicFormula, RangesHoldSlipsAndLoadIfAsked) {
 TEST(MagicRadius, SlipOfTheLargestForce) {
   const MagicTyre tyre = magic_tyre_of("a_sym_mf61.tir");
   for (const double Fz : {1000.0, 4000.0, 7000.0}) {
-    const MagicLengths<double> l = magic_lengths(tyre, Fz, 0.0);
+    const MagicStanding<double> at(tyre, Fz, 0.0);
+    const MagicPeaks<double> peaks = magic_peaks(tyre, at, false),
+                             least = magic_peaks(tyre, at, true);
+    EXPECT_LE(least.x, peaks.x);
+    EXPECT_LE(least.y, peaks.y);
     using D = DualNumber<2>;
     MagicInput<D> in;
     in.load = Fz;
-    in.kappa = D::variable(l.peak_x, 0);
+    in.kappa = D::variable(peaks.x, 0);
     in.speed = in.rolling = 20.0;
     EXPECT_NEAR(magic_forces(tyre, in).Fx.d[0], 0.0, 1e-6 * Fz);
     in.kappa = 0.0;
-    in.tan_alpha = D::variable(std::tan(l.peak_y), 1);
+    in.tan_alpha = D::variable(std::tan(peaks.y), 1);
     EXPECT_NEAR(magic_forces(tyre, in).Fy.d[1], 0.0, 1e-6 * Fz);
   }
 }

@@ -5,6 +5,7 @@
 // Eigen.
 #include <Eigen/Core>
 #include <cmath>
+#include <type_traits>
 
 namespace floatframe {
 
@@ -111,6 +112,15 @@ inline double value_of(double x) noexcept { return x; }
 template <int n>
 double value_of(const DualNumber<n>& x) noexcept {
   return x.v;
+}
+
+/// Over another scalar B: itself, or a double without its derivatives.
+template <class B, class S>
+B in_scalar(const S& x) noexcept {
+  if constexpr (std::is_same_v<B, S>)
+    return x;
+  else
+    return value_of(x);
 }
 
 }  // namespace floatframe

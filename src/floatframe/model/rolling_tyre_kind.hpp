@@ -167,7 +167,7 @@ struct RollingRest {
     if (!touches) return;
     const auto& keys = in.keys<typename Law::Keys>();
     const auto& data = in.data<typename Law::Data>();
-    lengths = Law::lengths(keys, data, l.load, c.camber, c.friction);
+    lengths = limited_lengths<Law>(keys, data, l.load, c.camber, c.friction);
     r_e = Law::effective_radius(keys, data, l.load, l.deflection, c.spin);
   }
 };
@@ -272,6 +272,7 @@ constexpr ElementKind rolling_tyre_kind() {
     if (!std::get<Keys>(*element.keys).relaxation) return;
     element.states = rolling::states;
     element.kept = rolling::kept;
+    element.rates_first = true;
   };
   kind.values = rolling_values;
   kind.start = rolling_start<Law>;
@@ -314,7 +315,7 @@ ElementExample rolling_example(std::size_t number, ExampleNumbers& numbers, type
   x.element.road = 0;
   if (!keys.relaxation) return x;
   const double load = Law::load(keys, data, depth, 0.0, 0.0);
-  const TyreLengths<double> l = Law::lengths(keys, data, load, 0.0, 1.0);
+  const TyreLengths<double> l = limited_lengths<Law>(keys, data, load, 0.0, 1.0);
   const bool slides = regime == RollingRegime::slides;
   // Against the slip, so that the deflection grows where it slides.
   const auto part = [&] {

@@ -84,6 +84,7 @@ S magic_cosine(double C, const S& Bx, const B& E) noexcept {
 template <class S>
 S sine_over(double p, const S& x) noexcept {
   using std::sin;
+  if (p == 2.0) return 2.0 / (1.0 + x * x);
   // p (1 - x^2 (2 + p^2)/6 + O(x^4)) is exact to rounding below.
   if (std::abs(value_of(x)) < 1e-4) return p * (1.0 - (2.0 + p * p) / 6.0 * x * x);
   return sin(S(p * arctan(x))) / x;

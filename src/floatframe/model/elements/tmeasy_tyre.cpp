@@ -70,17 +70,17 @@ struct TmeasyTyreLaw {
     return l;
   }
   template <class S, class B>
-  static TyreForces<S> forces(const Keys& keys, const Data& data,
-                              const TyreInput<S, B>& x) noexcept {
+  static TyreForces<S, B> forces(const Keys& keys, const Data& data,
+                                 const TyreInput<S, B>& x) noexcept {
     const S tread = tmeasy_tread_speed(S(1.0 + sense_of_rolling(x.v_cx) * x.kappa));
     const TmeasyForces<S> of = tmeasy_forces(data.tyre, x.load, B(x.friction * keys.friction),
                                              S(x.kappa / tread), S(-x.tan_alpha / tread));
-    TyreForces<S> f;
+    TyreForces<S, B> f;
     f.F_x = of.Fx;
     f.F_y = of.Fy;
-    f.M_z = of.Mz;
+    f.M_z = in_scalar<B>(of.Mz);
     f.M_y = -keys.rolling_resistance * x.load * B(keys.radius - x.deflection);
-    f.friction_use = of.friction_use;
+    f.friction_use = in_scalar<B>(of.friction_use);
     return f;
   }
   template <class S>
