@@ -10,6 +10,7 @@ is measured, in the format of figures.txt. Exit code 1 and one line for each fig
 smaller by more than a tenth should be entered anew.
 """
 import argparse
+import json
 import os
 import pathlib
 import re
@@ -181,6 +182,17 @@ def cost_of_reactions(program, with_outputs, kinds):
     return steps["with"] / steps["without"]
 
 
+def share_of_tyres(program):
+    """Of the instructions of a step of the rigid Iltis on tyres of the Magic Formula, the part in their laws."""
+    with tempfile.TemporaryDirectory(prefix="floatframe-count-") as folder:
+        out = pathlib.Path(folder) / "cost.json"
+        done = subprocess.run([sys.executable, str(ROOT / "bench/vehicle_cost.py"), "--program", str(program), "--coordinates", "relative",
+                               "--json", str(out)], capture_output=True, text=True, check=False)
+        if done.returncode:
+            sys.exit(f"held_figures: bench/vehicle_cost.py failed:\n{done.stderr[-2000:]}")
+        return json.loads(out.read_text(encoding="utf-8"))["relative"]["share of tyres"]
+
+
 def instruction_figures(program):
     if not shutil.which("valgrind"):
         sys.exit("held_figures: valgrind not found; Debian package: valgrind")
@@ -194,6 +206,7 @@ def instruction_figures(program):
         figures[f"instructions per {kind}: {name}"] = round(count)
     for name, arguments in STARTS.items():
         figures[f"instructions of the start: {name}"] = round(collected(program, arguments, COUNTED_START)[0])
+    figures["tyres of the Magic Formula, of a step of the rigid Iltis, relative"] = share_of_tyres(program)
     figures["steps with reactions of 18 parallelograms, of those without"] = cost_of_reactions(
         program, lambda outputs: row_of_parallelograms(18, outputs), ("  c0: {position: c0}\n", "  a0: {joint_force: a0}\n"))
     figures["steps with reactions of six legs, of those without"] = cost_of_reactions(

@@ -8,6 +8,7 @@
 
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/road.hpp"
+#include "floatframe/model/rolling_tyre_kind.hpp"
 #include "support/element_motion.hpp"
 
 namespace floatframe::test {
@@ -164,6 +165,63 @@ TEST(RollingTyre, BackwardsIsTheMirrorImage) {
   EXPECT_NEAR(value(b, rolling::longitudinal_force), -value(e, rolling::longitudinal_force), 1e-9);
   EXPECT_NEAR(value(b, rolling::lateral_force), value(e, rolling::lateral_force), 1e-9);
   EXPECT_NEAR(value(b, rolling::rolling_moment), -value(e, rolling::rolling_moment), 1e-9);
+}
+
+/// The wrench of a wheel that has sunk this far [m] below where it begins to touch; it spins fast
+/// and slips. Its damper, which jumps, is left out.
+template <class Keys>
+WrenchOf<double> just_touching(ElementType type, RollingRegime regime, double depth) {
+  ExampleNumbers numbers(7);
+  ElementExample x = element_kind(type).example(static_cast<std::size_t>(regime), numbers);
+  Keys keys = std::get<Keys>(*x.element.keys);
+  keys.damping = 0.0;
+  x.keys(keys);
+  MarkerState& wheel = x.markers[0];
+  wheel.w += 80.0 * (wheel.R * keys.axis);
+  x.states[0] = 0.01;
+  x.states[1] = -0.02;
+  const double middle = wheel.r.z();
+  double low = middle - 0.05, high = middle + 0.3;
+  for (int k = 0; k < 60; ++k) {
+    wheel.r.z() = 0.5 * (low + high);
+    (efforts(x).force > 0.0 ? low : high) = wheel.r.z();
+  }
+  wheel.r.z() = low - depth;
+  return efforts(x).wrench[0];
+}
+
+template <class Keys>
+void expect_gentle_touch(ElementType type) {
+  for (const RollingRegime regime :
+       {RollingRegime::rolling, RollingRegime::cambered, RollingRegime::other_side}) {
+    const auto touch = just_touching<Keys>(type, regime, 1e-9),
+               pressed = just_touching<Keys>(type, regime, 0.01);
+    EXPECT_LT(touch.F.norm(), 1e-3) << static_cast<int>(regime);
+    EXPECT_LT(touch.T.norm(), 1e-3) << static_cast<int>(regime);
+    EXPECT_GT(pressed.F.norm(), 1.0) << static_cast<int>(regime);
+  }
+}
+
+// A tyre that grows by its spin or its camber touches earlier, and no force begins with a jump.
+TEST(RollingTyre, NoForceJumpsWhereItTouches) {
+  expect_gentle_touch<LinearTyre>(ElementType::linear_tyre);
+  expect_gentle_touch<MagicFormulaTyre>(ElementType::magic_formula_tyre);
+  expect_gentle_touch<TmeasyTyre>(ElementType::tmeasy_tyre);
+  expect_gentle_touch<CalspanTyre>(ElementType::calspan_tyre);
+}
+
+// Far in the air nothing touches, whatever the polynomials of a load do there.
+TEST(RollingTyre, DoesNotTouchFarInTheAir) {
+  for (const ElementType type : {ElementType::linear_tyre, ElementType::magic_formula_tyre,
+                                 ElementType::tmeasy_tyre, ElementType::calspan_tyre}) {
+    ExampleNumbers numbers(8);
+    ElementExample x =
+        element_kind(type).example(static_cast<std::size_t>(RollingRegime::cambered), numbers);
+    for (const double up : {0.3, 1.0, 10.0, 1e3}) {
+      x.markers[0].r.z() += up;
+      EXPECT_EQ(efforts(x).force, 0.0) << element_kind(type).about << " " << up;
+    }
+  }
 }
 
 }  // namespace

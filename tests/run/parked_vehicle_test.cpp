@@ -1,5 +1,5 @@
 // A quarter vehicle that brakes, stops and parks on a slope, against an independent integration;
-// a vehicle on four tyres that is parked.
+// a vehicle on four tyres that is parked; the same on tyres of the Magic Formula.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -138,7 +138,7 @@ forces:
   fr: {type: linear_tyre, body: car, at: [1.2, -0.7, 0.3], side: right, <<}
   rl: {type: linear_tyre, body: car, at: [-1.3, 0.7, 0.3], <<}
   rr: {type: linear_tyre, body: car, at: [-1.3, -0.7, 0.3], side: right, <<}
-roads: {hill: {profile: [[-10, -1.5], [10, 1.5]]}}
+roads: {hill: {profile: PROFILE}}
 outputs:
   p: {position: car}
   fl: {force: fl}
@@ -148,8 +148,9 @@ outputs:
 simulation: {start: equilibrium, step: 1.0e-3, duration: 30, output_interval: 1}
 )";
 
-std::string parked_vehicle() {
+std::string parked_vehicle(const std::string& profile) {
   std::string text = parked;
+  text.replace(text.find("PROFILE"), 7, profile);
   for (std::size_t at = text.find("<<"); at != std::string::npos; at = text.find("<<"))
     text.replace(at, 2,
                  "road: hill, radius: 0.31, stiffness: 2.0e+5, damping: 1000, slip_stiffness: "
@@ -158,7 +159,7 @@ std::string parked_vehicle() {
 }
 
 TEST(ParkedVehicle, StaysInItsEquilibrium) {
-  const Model model = model_of(parked_vehicle());
+  const Model model = model_of(parked_vehicle("[[-10, -1.5], [10, 1.5]]"));
   for (const Coordinates c : both_coordinates)
     for (const double step : {1e-3, 1e-2}) {
       const RunResult r = completed_run(model, with(model.simulation, c, step, 30.0));
@@ -169,6 +170,60 @@ TEST(ParkedVehicle, StaysInItsEquilibrium) {
       for (std::size_t k = 4; k <= 7; ++k) load += r.table.at(last, k);
       EXPECT_LT(drift, 1e-6) << name_of(c) << " " << step;
       EXPECT_NEAR(load, 1200.0 * earth_gravity * std::cos(std::atan(0.15)), 1e-3);
+    }
+}
+
+/// In the place of the tyre that a model has, with the same place on the vehicle.
+std::string on_magic_tyres(std::string text, const std::string& keys) {
+  const std::string plain = "linear_tyre", other = "magic_formula_tyre";
+  for (std::size_t at = text.find(plain); at != std::string::npos; at = text.find(plain, at)) {
+    text.replace(at, plain.size(), other);
+    at = text.find("radius:", at);
+    text.replace(at, text.find('}', at) - at, keys);
+  }
+  return text;
+}
+const std::string passenger_tyre =
+    std::string("file: ") + FLOATFRAME_TEST_DATA + "/tyres/mf/a_205_60R15_mf61.tir";
+
+/// The largest distance from its end of what a column shows after `begin`.
+double drift_from(const RunResult& r, double begin, std::size_t column) {
+  double drift = 0.0;
+  const std::size_t last = r.table.rows() - 1;
+  for (std::size_t k = 0; k <= last; ++k)
+    if (r.table.at(k, 0) >= begin)
+      drift = std::max(drift, std::abs(r.table.at(k, column) - r.table.at(last, column)));
+  return drift;
+}
+
+// It begins beside its rest, and rocks.
+TEST(QuarterVehicleStop, RestsOnAMagicFormulaTyre) {
+  const Model model =
+      model_of(on_magic_tyres(quarter_vehicle({"park_15pc", 0, 2000, 0.15, 1, 0}), passenger_tyre));
+  for (const Coordinates c : both_coordinates)
+    for (const double step : {1e-3, 1e-2}) {
+      const RunResult r = completed_run(model, with(model.simulation, c, step, 30.0));
+      EXPECT_LT(drift_from(r, 20.0, 1), 1e-6) << name_of(c) << " " << step;
+      EXPECT_NEAR(r.table.at(r.table.rows() - 1, 3),
+                  car_mass * earth_gravity * std::sin(std::atan(0.15)), 1e-3);
+    }
+}
+
+// Across a slope by the direction of gravity; in its equilibrium from the start.
+TEST(ParkedVehicle, StaysOnMagicFormulaTyres) {
+  const double slope = std::atan(0.15), askew = 0.5, g = earth_gravity;
+  const Model model = model_of(
+      fmt::format("gravity: [{:.17g}, {:.17g}, {:.17g}]", -g * std::sin(slope) * std::cos(askew),
+                  -g * std::sin(slope) * std::sin(askew), -g * std::cos(slope)) +
+      on_magic_tyres(parked_vehicle("[[-10, 0], [10, 0]]"), passenger_tyre + ", damping: 1000"));
+  for (const Coordinates c : both_coordinates)
+    for (const double step : {1e-3, 1e-2}) {
+      const RunResult r = completed_run(model, with(model.simulation, c, step, 30.0));
+      double load = 0.0;
+      for (std::size_t k = 1; k <= 3; ++k)
+        EXPECT_LT(drift_from(r, 0.0, k), 1e-6) << name_of(c) << " " << step;
+      for (std::size_t k = 4; k <= 7; ++k) load += r.table.at(r.table.rows() - 1, k);
+      EXPECT_NEAR(load, 1200.0 * g * std::cos(slope), 1e-3);
     }
 }
 

@@ -7,6 +7,7 @@
 #include "floatframe/stepping/stepping.hpp"
 #include "floatframe/tyres/calspan.hpp"
 #include "floatframe/tyres/tmeasy.hpp"
+#include "support/allocation_counter.hpp"
 #include "support/completed_run.hpp"
 #include "support/contains.hpp"
 #include "support/model_text.hpp"
@@ -15,6 +16,16 @@ namespace floatframe::test {
 namespace {
 
 constexpr double height = 0.36, speed = 20.0;
+const std::string van_tyre = R"(
+    type: tmeasy_tyre, radius: 0.376, nominal_load: 1900, stiffness: [1.0e+5, 1.1e+5],
+    longitudinal: [[34911, 2145.5, 0.139, 1522.8, 0.667], [73974, 4140.6, 0.139, 2922.8, 0.667]],
+    lateral: [[30367, 1901.7, 0.149, 1583.8, 0.965], [48834, 3472.0, 0.185, 2938.8, 1.071]],
+    trail: [[0.178, 0.163, 0.965], [0.190, 0.204, 1.071]],
+    longitudinal_stiffness: 1.2e+5, lateral_stiffness: 8.0e+4)";
+const std::string iltis_tyre = R"(
+    type: calspan_tyre, radius: 0.364325, stiffness: 4.6e+5, cornering: [2625, 14.47, 12930],
+    camber: [2.29, 18175], friction: [-4.64e-5, 1.216, 2.18e-11], skid_number: 1.0274,
+    aligning: [-1.71e-5, 1.71e-5])";
 
 /// At the speed along x, steered by `steer` to the left, the top of the wheel to the right by
 /// `camber`; its spin is Omega.
@@ -57,10 +68,8 @@ TEST(CalspanTyre, HasTheForcesOfItsLawAtTheSlipOfTheWheelCentre) {
   for (const double steer : {-0.3, -0.02, 0.0, 0.05})
     for (const double camber : {-0.03, 0.0, 0.06}) {
       // The floor of the speed below the slip is a tenth of damping_speed.
-      const auto [load, Fx, Fy, Mz] = steady_forces(pushed_wheel(steer, camber, 55.0, R"(
-    type: calspan_tyre, radius: 0.364325, stiffness: 4.6e+5, cornering: [2625, 14.47, 12930],
-    camber: [2.29, 18175], friction: [-4.64e-5, 1.216, 2.18e-11], skid_number: 1.0274,
-    aligning: [-1.71e-5, 1.71e-5], damping_speed: 1.0e-4)"));
+      const auto [load, Fx, Fy, Mz] =
+          steady_forces(pushed_wheel(steer, camber, 55.0, iltis_tyre + ", damping_speed: 1.0e-4"));
       const double Fz = 4.6e5 * (0.364325 - height);
       const auto law = calspan_forces(iltis, Fz, 1.0, -steer, camber);
       EXPECT_NEAR(load, Fz, 1e-8 * Fz);
@@ -86,18 +95,48 @@ TEST(TmeasyTyre, HasTheForcesOfItsLawAtItsSlips) {
     for (const double kappa : {-0.5, -0.05, 0.0, 0.1, 0.8}) {
       const double along = speed * std::cos(steer);
       const auto [load, Fx, Fy, Mz] =
-          steady_forces(pushed_wheel(steer, 0.0, (1.0 + kappa) * along / r_e, R"(
-    type: tmeasy_tyre, radius: 0.376, nominal_load: 1900, stiffness: [1.0e+5, 1.1e+5],
-    longitudinal: [[34911, 2145.5, 0.139, 1522.8, 0.667], [73974, 4140.6, 0.139, 2922.8, 0.667]],
-    lateral: [[30367, 1901.7, 0.149, 1583.8, 0.965], [48834, 3472.0, 0.185, 2938.8, 1.071]],
-    trail: [[0.178, 0.163, 0.965], [0.190, 0.204, 1.071]],
-    longitudinal_stiffness: 1.2e+5, lateral_stiffness: 8.0e+4)"));
+          steady_forces(pushed_wheel(steer, 0.0, (1.0 + kappa) * along / r_e, van_tyre));
       const double tread = 1.0 + kappa * along / std::hypot(along, 0.1);
       const auto of = tmeasy_forces(law, Fz, 1.0, kappa / tread, std::tan(steer) / tread);
       EXPECT_NEAR(load, Fz, 1e-8 * Fz);
       EXPECT_NEAR(Fx, of.Fx, 1e-7 * Fz) << "steer " << steer << " kappa " << kappa;
       EXPECT_NEAR(Fy, of.Fy, 1e-7 * Fz) << "steer " << steer << " kappa " << kappa;
       EXPECT_NEAR(Mz, of.Mz, 1e-7 * Fz) << "steer " << steer << " kappa " << kappa;
+    }
+}
+
+/// 400 kg on one wheel, askew, that lands after 0.1 s and is braked.
+std::string landing_wheel(const std::string& tyre) {
+  return fmt::format(R"(
+bodies:
+  car: {{rigid: {{mass: 380, centre_of_mass: [0, 0, 0.42], inertia: [20, 20, 20]}}}}
+  wheel: {{rigid: {{mass: 20, centre_of_mass: [0, 0, 0.42], inertia: [1, 1.2, 1]}}}}
+joints:
+  plane: {{type: planar, child: car, at: [0, 0, 0.42], axis: y, axis_2: x, velocity: [20, 0, 0]}}
+  axle: {{type: revolute, parent: car, child: wheel, at: [0, 0, 0.42], axis: [-0.05, 1, 0.02],
+    velocity: 55}}
+forces:
+  tyre: {{body: wheel, road: flat, axis: [-0.05, 1, 0.02], damping: 1000,{}}}
+  brake: {{type: bristle_friction, joint: axle, breakaway: 900, stiffness: 2.0e+4, damping: 20}}
+roads: {{flat: {{profile: [[-1, 0], [1, 0]]}}}}
+outputs: {{load: {{force: tyre}}}}
+simulation: {{step: 0.001}}
+)",
+                     tyre);
+}
+
+TEST(RollingTyre, StepsDoNotAllocate) {
+  if (!allocations_counted()) GTEST_SKIP() << "allocations are not counted in this build";
+  const std::string file = FLOATFRAME_TEST_DATA "/tyres/mf/b_mf61.tir";
+  for (const std::string& tyre : {"type: magic_formula_tyre, file: " + file, van_tyre, iltis_tyre})
+    for (const Coordinates c : both_coordinates) {
+      Simulation s(model_of(landing_wheel(tyre)), {.coordinates = c});
+      for (int k = 0; k < 20; ++k) ASSERT_TRUE(s.step());
+      EXPECT_EQ(s.output("load"), 0.0);
+      const AllocationScope scope;
+      for (int k = 0; k < 100; ++k) s.step();
+      EXPECT_EQ(scope.count(), 0u) << tyre;
+      EXPECT_GT(s.output("load"), 0.0);
     }
 }
 

@@ -119,6 +119,28 @@ TEST(MagicLoads, FollowTheForcesWithExactDerivatives) {
   }
 }
 
+// Spin and camber make a tyre larger: its load begins at zero nevertheless.
+TEST(MagicLoads, BeginAtZero) {
+  for (const char* name :
+       {"a_205_60R15_mf61.tir", "b_mf61.tir", "b_mf62.tir", "c_235_60R16_mf52.tir"})
+    for (const double camber : {-0.1, 0.0, 0.05}) {
+      const MagicTyre tyre = magic_tyre_of(name);
+      const double spin = 120.0;
+      const auto load = [&](double radius) {
+        return magic_load(tyre, radius, camber, spin, 0.0, 0.0);
+      };
+      double low = 0.9 * tyre.R0, high = 1.1 * tyre.R0;
+      for (int k = 0; k < 60; ++k) {
+        const double middle = 0.5 * (low + high);
+        (load(middle) > 0.0 ? low : high) = middle;
+      }
+      EXPECT_LT(load(low - 1e-9), 1e-3) << name << " " << camber;
+      EXPECT_GE(load(low), 0.0);
+      for (const double up : {1e-3, 0.1, 10.0, 1e4})
+        EXPECT_LE(load(high + up), 0.0) << name << " " << camber << " " << up;
+    }
+}
+
 /// Power of the forces on the sliding of the contact point; without camber a symmetric tyre never
 /// delivers any.
 TEST(MagicFormula, SlipOfASymmetricTyreTakesPower) {
@@ -193,15 +215,19 @@ TEST(MagicFormula, RangesHoldSlipsAndLoadIfAsked) {
 TEST(MagicRadius, SlipOfTheLargestForce) {
   const MagicTyre tyre = magic_tyre_of("a_sym_mf61.tir");
   for (const double Fz : {1000.0, 4000.0, 7000.0}) {
-    const MagicLengths<double> l = magic_lengths(tyre, Fz, 0.0);
+    const MagicStanding<double> at(tyre, Fz, 0.0);
+    const MagicPeaks<double> peaks = magic_peaks(tyre, at, false),
+                             least = magic_peaks(tyre, at, true);
+    EXPECT_LE(least.x, peaks.x);
+    EXPECT_LE(least.y, peaks.y);
     using D = DualNumber<2>;
     MagicInput<D> in;
     in.load = Fz;
-    in.kappa = D::variable(l.peak_x, 0);
+    in.kappa = D::variable(peaks.x, 0);
     in.speed = in.rolling = 20.0;
     EXPECT_NEAR(magic_forces(tyre, in).Fx.d[0], 0.0, 1e-6 * Fz);
     in.kappa = 0.0;
-    in.tan_alpha = D::variable(std::tan(l.peak_y), 1);
+    in.tan_alpha = D::variable(std::tan(peaks.y), 1);
     EXPECT_NEAR(magic_forces(tyre, in).Fy.d[1], 0.0, 1e-6 * Fz);
   }
 }

@@ -93,10 +93,12 @@ void ElementStates::solve(std::size_t element, const Ports& in, Efforts& out) no
   Eigen::Map<VecX> z(z_.data() + offsets_[element], n);
   release(element);
   deflect(element, in);
+  Ports asked = in;
+  asked.rates_alone = model_.elements[element].rates_first;
   const bool solved = newton.solve(
       z,
       [&] {
-        evaluate_element(in, out);
+        evaluate_element(asked, out);
         find_gap(element, out, newton.gap.data(), newton.size.data());
       },
       [&] {
@@ -105,6 +107,7 @@ void ElementStates::solve(std::size_t element, const Ports& in, Efforts& out) no
             newton.slopes(i, j) = (i == j ? weight_ : 0.0) - out.state_slopes[i * n + j];
         hold_drifting(element, 0, newton);
       });
+  if (asked.rates_alone) evaluate_element(in, out);
   if (!solved) fail(element);
 }
 

@@ -5,6 +5,7 @@
 // Eigen.
 #include <Eigen/Core>
 #include <cmath>
+#include <type_traits>
 
 namespace floatframe {
 
@@ -43,6 +44,18 @@ struct DualNumber {
   friend DualNumber operator*(DualNumber a, const DualNumber& b) noexcept { return a *= b; }
   friend DualNumber operator/(DualNumber a, const DualNumber& b) noexcept { return a /= b; }
   friend DualNumber operator-(const DualNumber& a) noexcept { return {-a.v, -a.d}; }
+  // A constant has no derivatives to multiply.
+  friend DualNumber operator+(const DualNumber& a, double b) noexcept { return {a.v + b, a.d}; }
+  friend DualNumber operator+(double a, const DualNumber& b) noexcept { return {a + b.v, b.d}; }
+  friend DualNumber operator-(const DualNumber& a, double b) noexcept { return {a.v - b, a.d}; }
+  friend DualNumber operator-(double a, const DualNumber& b) noexcept { return {a - b.v, -b.d}; }
+  friend DualNumber operator*(const DualNumber& a, double b) noexcept { return {a.v * b, a.d * b}; }
+  friend DualNumber operator*(double a, const DualNumber& b) noexcept { return {a * b.v, a * b.d}; }
+  friend DualNumber operator/(const DualNumber& a, double b) noexcept { return {a.v / b, a.d / b}; }
+  friend DualNumber operator/(double a, const DualNumber& b) noexcept {
+    const double q = a / b.v;
+    return {q, -(q / b.v) * b.d};
+  }
   friend bool operator==(const DualNumber& a, const DualNumber& b) noexcept { return a.v == b.v; }
   friend auto operator<=>(const DualNumber& a, const DualNumber& b) noexcept { return a.v <=> b.v; }
 };
@@ -99,6 +112,15 @@ inline double value_of(double x) noexcept { return x; }
 template <int n>
 double value_of(const DualNumber<n>& x) noexcept {
   return x.v;
+}
+
+/// Over another scalar B: itself, or a double without its derivatives.
+template <class B, class S>
+B in_scalar(const S& x) noexcept {
+  if constexpr (std::is_same_v<B, S>)
+    return x;
+  else
+    return value_of(x);
 }
 
 }  // namespace floatframe

@@ -147,6 +147,8 @@ struct PortsOf {
   /// At rest, where states follow deflections (`Deflection`): the slope of each state over that of
   /// its element; null: not at rest.
   const double* rest_slopes = nullptr;
+  /// Of elements with `rates_first`: only the rates of the states and their slopes are asked for.
+  bool rates_alone = false;
 
   S input(std::size_t i) const noexcept {
     S value = inputs[i];

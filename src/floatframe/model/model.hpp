@@ -182,16 +182,17 @@ struct Element {
   LoadPort load;                            ///< of the joint whose reaction it reads
   std::vector<std::string> values;          ///< the names of its values, if it has several
   int road = -1;
-  int states = 0;             ///< variables of first order of its law
-  int kept = 0;               ///< numbers that change between steps only
-  SampleClock clock;          ///< of its value, if it is sampled
-  bool remembers = false;     ///< they are a past, which the law reads by `PortsOf::kept` alone
-  VecX start_states;          ///< states and kept numbers at the start; empty: those of the kind
-  bool acts = true;           ///< by a law
-  bool holds = false;         ///< its markers, by constraints
-  bool reads = false;         ///< its markers only: it exerts nothing
-  bool rotational = false;    ///< its measure is an angle
-  bool driven = false;        ///< by a signal that it follows or that is a force, or by a function
+  int states = 0;            ///< variables of first order of its law
+  int kept = 0;              ///< numbers that change between steps only
+  SampleClock clock;         ///< of its value, if it is sampled
+  bool rates_first = false;  ///< its law gives the rates of its states alone (PortsOf::rates_alone)
+  bool remembers = false;    ///< they are a past, which the law reads by `PortsOf::kept` alone
+  VecX start_states;         ///< states and kept numbers at the start; empty: those of the kind
+  bool acts = true;          ///< by a law
+  bool holds = false;        ///< its markers, by constraints
+  bool reads = false;        ///< its markers only: it exerts nothing
+  bool rotational = false;   ///< its measure is an angle
+  bool driven = false;       ///< by a signal that it follows or that is a force, or by a function
   bool target_jumps = false;  ///< one that it follows may jump
   bool switched = false;  ///< its branches are those of its local formula, and its laws have none
   std::shared_ptr<const ElementKeys> keys;  ///< what the user has said

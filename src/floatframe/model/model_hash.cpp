@@ -122,8 +122,8 @@ class ModelHash {
   }
   void add(const Element& e) {
     const auto& [name, type, markers, laws, signals, coordinates, operands, load, values, road,
-                 states, kept, clock, remembers, start, acts, holds, reads, rotational, driven,
-                 jumps, switched, keys, data] = e;
+                 states, kept, clock, rates_first, remembers, start, acts, holds, reads, rotational,
+                 driven, jumps, switched, keys, data] = e;
     all(name, type, markers, laws, signals, operands, road, rotational);
     if (remembers) all(kept);
     const ElementDescription described{name, *keys, {}};

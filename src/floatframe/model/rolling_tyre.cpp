@@ -13,7 +13,7 @@ namespace {
 using Mat2 = Eigen::Matrix2d;
 
 /// -d(F_x, F_y)/d(V_sx, V_sy) with the states following.
-Mat2 damping_in_road(const Ports& in, const RollingForces<DualNumber<4>>& f) noexcept {
+Mat2 damping_in_road(const Ports& in, const RollingForces<DualNumber<4>, double>& f) noexcept {
   Mat2 F_V, F_z, z_V, z_z;
   for (int j = 0; j < 2; ++j) {
     F_z.col(j) << f.of.F_x.d[j], f.of.F_y.d[j];
@@ -31,8 +31,8 @@ Mat2 damping_in_road(const Ports& in, const RollingForces<DualNumber<4>>& f) noe
 }  // namespace
 
 void add_rolling_rows(const Ports& in, const RollingContact<double>& c, double stiffness,
-                      double damping, bool spinning, const RollingForces<DualNumber<4>>& slopes,
-                      Efforts& out) noexcept {
+                      double damping, bool spinning,
+                      const RollingForces<DualNumber<4>, double>& slopes, Efforts& out) noexcept {
   const double upright = c.e_z.dot(c.n);
   const auto row = [&](const Vec3& along, double k, double d) noexcept {
     *out.add_row(k, d) = {along, c.arm.cross(along)};

@@ -37,24 +37,25 @@
 
 namespace floatframe {
 
-/// What the forces of a tyre are made of; angles in rad. `load` is positive.
-template <class S>
+/// What the forces of a tyre are made of; angles in rad. `load` is positive. B: the scalar of what
+/// the slips do not change, double in steps.
+template <class S, class B = S>
 struct TyreInput {
-  S load;               ///< F_z [N]
+  B load;               ///< F_z [N]
   S kappa, tan_alpha;   ///< (2), with their sign at forward and backward rolling: -V_sx/|V_cx|, ...
-  S camber;             ///< gamma > 0: the top leans to the right
-  S v_cx, v_sx, v_sy;   ///< the motion itself [m/s]
-  S spin;               ///< Omega [rad/s]
-  S deflection;         ///< d [m]
+  B camber;             ///< gamma > 0: the top leans to the right
+  B v_cx;               ///< the motion itself [m/s]
+  B deflection;         ///< d [m]
   double friction = 1;  ///< factor of the road
 };
 
-/// In ISO-W. M_y is that of a wheel that rolls forwards.
-template <class S>
+/// In ISO-W. M_y is that of a wheel that rolls forwards. B: the scalar of what no row needs slopes
+/// of, double in steps.
+template <class S, class B = S>
 struct TyreForces {
   S F_x = 0.0, F_y = 0.0;             ///< [N]
-  S M_x = 0.0, M_y = 0.0, M_z = 0.0;  ///< [N m]
-  S friction_use = 0.0;               ///< horizontal force over the largest possible one
+  B M_x = 0.0, M_y = 0.0, M_z = 0.0;  ///< [N m]
+  B friction_use = 0.0;               ///< horizontal force over the largest possible one
 };
 
 /// Of the carcass and the contact, at a load and camber.
@@ -72,10 +73,13 @@ struct TyreLengths {
 ///   double radius(const Keys&, const Data&)        unloaded [m]
 ///   bool mirrored(const Keys&, const Data&)        its data are of the other side
 /// and, templates over S:
-///   S load(keys, data, S deflection, S camber, S spin)   without damping; smooth below 0 as well
+///   S load(keys, data, S deflection, S camber, S spin)   without damping; below 0 in the air, and
+///                                                        smooth there as well
 ///   S effective_radius(keys, data, S load, S deflection, S spin)
 ///   TyreLengths<S> lengths(keys, data, S load, S camber, double friction)
-///   TyreForces<S> forces(keys, data, const TyreInput<S>&)
+///   void limits(keys, data, S load, S camber, double friction, TyreLengths<S>&)
+///     may be absent: `lengths` gives lower bounds of the limits, this gives them
+///   TyreForces<S, B> forces(keys, data, const TyreInput<S, B>&)   over B as well: S or double
 ///   S energy(keys, data, S deflection)                     may be absent
 /// S: double, Dual, DualNumber<1> and DualNumber<4>.
 
@@ -107,38 +111,36 @@ S fading(const S& speed, double full) noexcept {
   return 0.5 + 0.5 * cos(S((std::numbers::pi / full) * speed));
 }
 
-/// What the horizontal forces depend on beside the states.
-template <class S>
+/// What the horizontal forces depend on beside the states: S is the scalar of the slips.
+template <class S, class B = S>
 struct RollingMotion {
-  S load, deflection, camber, v_cx, v_sx, v_sy, spin;
+  B load, deflection, camber, v_cx;
+  S v_sx, v_sy;
+  B spin;
   double friction = 1.0;
-  template <class T>
-  RollingMotion<T> over() const noexcept {
-    return {T(load), T(deflection), T(camber), T(v_cx), T(v_sx), T(v_sy), T(spin), friction};
-  }
 };
 
 /// Forces, and the rates of the states.
-template <class S>
+template <class S, class B = S>
 struct RollingForces {
-  TyreForces<S> of;
+  TyreForces<S, B> of;
   S kappa = 0.0, tan_alpha = 0.0;
   S u_rate = 0.0, v_rate = 0.0;
   S energy = 0.0;
 };
 
 /// L of (4)
-template <class S>
-S rolling_limit(bool falls, const S& limit, const S& sigma, const S& still) noexcept {
-  const S least = value_of(limit) > rolling::least_limit ? limit : S(rolling::least_limit);
+template <class S, class B>
+S rolling_limit(bool falls, const B& limit, const B& sigma, const S& still) noexcept {
+  const B least = value_of(limit) > rolling::least_limit ? limit : B(rolling::least_limit);
   if (!falls) return least;
   return least + (S(1.0) - still) * (rolling::reach * sigma);
 }
 
 /// (4)
-template <class S>
+template <class S, class B>
 void hold_deflections(const S& L_x, const S& L_y, const S& u, const S& v,
-                      RollingForces<S>& out) noexcept {
+                      RollingForces<S, B>& out) noexcept {
   using std::sqrt;
   const S a = u / L_x, b = v / L_y, s = sqrt(S(a * a + b * b));
   if (value_of(s) <= 1.0) return;
@@ -151,54 +153,84 @@ void hold_deflections(const S& L_x, const S& L_y, const S& u, const S& v,
   out.v_rate -= pull * v;
 }
 
-/// (1) to (4), and the law. `mirrored`: the data are of the other side.
-template <class Law, class S>
-RollingForces<S> rolling_forces(const typename Law::Keys& keys, const typename Law::Data& data,
-                                const RollingMotion<S>& m, const S* states,
-                                const double* rest_slopes) noexcept {
+/// Lengths of a law with the limits themselves.
+template <class Law, class B>
+TyreLengths<B> limited_lengths(const typename Law::Keys& keys, const typename Law::Data& data,
+                               const B& load, const B& camber, double friction) noexcept {
+  TyreLengths<B> l = Law::lengths(keys, data, load, camber, friction);
+  if constexpr (requires { Law::limits(keys, data, load, camber, friction, l); })
+    Law::limits(keys, data, load, camber, friction, l);
+  return l;
+}
+
+/// (4). `l`: with lower bounds of the limits, which is enough for a tyre that does not slide.
+template <class Law, class S, class B>
+void hold_slides(const typename Law::Keys& keys, const typename Law::Data& data,
+                 const RollingMotion<S, B>& m, const S* states, TyreLengths<B> l,
+                 RollingForces<S, B>& out) noexcept {
   using std::sqrt;
-  RollingForces<S> out;
-  const S speed = magnitude(m.v_cx);
-  if (states) {
-    const S& u = states[0];
-    const S& v = states[1];
-    const TyreLengths<S> l = Law::lengths(keys, data, m.load, m.camber, m.friction);
-    const S slow = fading(S(sqrt(S(m.v_cx * m.v_cx + m.v_sy * m.v_sy))), keys.damping_speed);
-    const S t_x = slow * (keys.rest_damping ? S(*keys.rest_damping / l.stiffness_x)
-                                            : S(rolling::rest_time)),
-            t_y = slow * (keys.rest_damping ? S(*keys.rest_damping / l.stiffness_y)
-                                            : S(rolling::rest_time));
-    out.kappa = (u - t_x * m.v_sx) / l.sigma_x;       // (2)
-    out.tan_alpha = -(v - t_y * m.v_sy) / l.sigma_y;  // (2)
-    if (rest_slopes) {
-      out.u_rate = -rest_slopes[0] * m.v_sx;
-      out.v_rate = -rest_slopes[1] * m.v_sy;
-    } else {
-      out.u_rate = -m.v_sx - speed * u / l.sigma_x;  // (1)
-      out.v_rate = -m.v_sy - speed * v / l.sigma_y;  // (1)
-      S still = 1.0;
-      if constexpr (Law::falls)
-        still = fading(S(sqrt(S(m.v_sx * m.v_sx + m.v_sy * m.v_sy))), keys.damping_speed);
-      hold_deflections(rolling_limit(Law::falls, l.limit_x, l.sigma_x, still),
-                       rolling_limit(Law::falls, l.limit_y, l.sigma_y, still), u, v, out);
-    }
-    out.energy = 0.5 * (l.stiffness_x * u * u + l.stiffness_y * v * v);
-  } else {
+  const double a = value_of(states[0]), b = value_of(states[1]), L_x = value_of(l.limit_x),
+               L_y = value_of(l.limit_y);
+  if (a * a * L_y * L_y + b * b * L_x * L_x < L_x * L_x * L_y * L_y) return;
+  if constexpr (requires { Law::limits(keys, data, m.load, m.camber, m.friction, l); })
+    Law::limits(keys, data, m.load, m.camber, m.friction, l);
+  S still = 1.0;
+  if constexpr (Law::falls)
+    still = fading(S(sqrt(S(m.v_sx * m.v_sx + m.v_sy * m.v_sy))), keys.damping_speed);
+  hold_deflections(rolling_limit(Law::falls, l.limit_x, l.sigma_x, still),
+                   rolling_limit(Law::falls, l.limit_y, l.sigma_y, still), states[0], states[1],
+                   out);
+}
+
+/// (1) to (4) alone. Without states: the steady slips.
+template <class Law, class S, class B>
+RollingForces<S, B> rolling_slips(const typename Law::Keys& keys, const typename Law::Data& data,
+                                  const RollingMotion<S, B>& m, const S* states,
+                                  const double* rest_slopes) noexcept {
+  using std::sqrt;
+  RollingForces<S, B> out;
+  const B speed = magnitude(m.v_cx);
+  if (!states) {
     const double least = keys.damping_speed;
-    const S along =
-        value_of(speed) < least ? S((speed * speed + least * least) / (2.0 * least)) : speed;
+    const B along =
+        value_of(speed) < least ? B((speed * speed + least * least) / (2.0 * least)) : speed;
     out.kappa = -m.v_sx / along;
     out.tan_alpha = m.v_sy / along;
+    return out;
   }
+  const S& u = states[0];
+  const S& v = states[1];
+  const TyreLengths<B> l = Law::lengths(keys, data, m.load, m.camber, m.friction);
+  const S slow = fading(S(sqrt(S(m.v_cx * m.v_cx + m.v_sy * m.v_sy))), keys.damping_speed);
+  const S t_x = slow *
+                (keys.rest_damping ? B(*keys.rest_damping / l.stiffness_x) : B(rolling::rest_time)),
+          t_y = slow *
+                (keys.rest_damping ? B(*keys.rest_damping / l.stiffness_y) : B(rolling::rest_time));
+  out.kappa = (u - t_x * m.v_sx) / l.sigma_x;       // (2)
+  out.tan_alpha = -(v - t_y * m.v_sy) / l.sigma_y;  // (2)
+  if (rest_slopes) {
+    out.u_rate = -rest_slopes[0] * m.v_sx;
+    out.v_rate = -rest_slopes[1] * m.v_sy;
+  } else {
+    out.u_rate = -m.v_sx - speed * u / l.sigma_x;  // (1)
+    out.v_rate = -m.v_sy - speed * v / l.sigma_y;  // (1)
+    hold_slides<Law>(keys, data, m, states, l, out);
+  }
+  out.energy = 0.5 * (l.stiffness_x * u * u + l.stiffness_y * v * v);
+  return out;
+}
+
+/// The law at these slips. `mirrored`: the data are of the other side.
+template <class Law, class S, class B>
+void add_tyre_forces(const typename Law::Keys& keys, const typename Law::Data& data,
+                     const RollingMotion<S, B>& m, RollingForces<S, B>& out) noexcept {
   const double side = Law::mirrored(keys, data) ? -1.0 : 1.0;
-  out.of =
-      Law::forces(keys, data,
-                  TyreInput<S>{m.load, out.kappa, S(side * out.tan_alpha), S(side * m.camber),
-                               m.v_cx, m.v_sx, S(side * m.v_sy), m.spin, m.deflection, m.friction});
+  out.of = Law::forces(keys, data,
+                       TyreInput<S, B>{m.load, out.kappa, S(side * out.tan_alpha),
+                                       B(side * m.camber), m.v_cx, m.deflection, m.friction});
   out.of.F_y *= side;
   out.of.M_x *= side;
   out.of.M_z *= side;
-  return out;
 }
 
 /// Signals: the plate of the user, and what lifts the road in linear systems.
@@ -220,6 +252,7 @@ RollingContact<S> contact_of_tyre(const PortsOf<S>& in) noexcept {
 template <class S>
 struct RollingLoad {
   S deflection = 0.0, load = 0.0;
+  double spring = 0.0;     ///< the load without damping: positive where the tyre touches
   double stiffness = 0.0;  ///< of doubles
   bool touches = false;
 };
@@ -240,8 +273,9 @@ RollingLoad<S> rolling_load(const PortsOf<S>& in, const RollingContact<S>& c) no
   } else {
     l.load = Law::load(keys, data, l.deflection, camber, c.spin);
   }
+  l.spring = value_of(l.load);
   l.load += keys.damping * c.sinking;
-  l.touches = in.branch == free_branch ? value_of(l.deflection) > 0.0 && value_of(l.load) > 0.0
+  l.touches = in.branch == free_branch ? l.spring > 0.0 && value_of(l.load) > 0.0
                                        : RollingBranch{in.branch}.touches();
   return l;
 }
@@ -249,8 +283,8 @@ RollingLoad<S> rolling_load(const PortsOf<S>& in, const RollingContact<S>& c) no
 /// Rows of the normal force and of the two in the road (element_evaluation.hpp). `slopes`: over u,
 /// v, V_sx, V_sy.
 void add_rolling_rows(const Ports& in, const RollingContact<double>& c, double stiffness,
-                      double damping, bool spinning, const RollingForces<DualNumber<4>>& slopes,
-                      Efforts& out) noexcept;
+                      double damping, bool spinning,
+                      const RollingForces<DualNumber<4>, double>& slopes, Efforts& out) noexcept;
 
 /// The sense of rolling of a wheel whose tread moves at this speed.
 template <class S>
@@ -276,6 +310,17 @@ void rolling_off_road(const PortsOf<S>& in, const RollingContact<S>& c,
   out.force = std::numeric_limits<double>::quiet_NaN();
   out.wrench[0].F = out.force * c.axis;
   rolling_in_air(in, out);
+}
+
+/// Rates of the states and their slopes.
+inline void put_rolling_rates(const RollingForces<DualNumber<4>, double>& f,
+                              Efforts& out) noexcept {
+  out.state_rates[0] = f.u_rate.v;
+  out.state_rates[1] = f.v_rate.v;
+  for (int i = 0; i < 2; ++i) {
+    out.state_slopes[i] = f.u_rate.d[i];
+    out.state_slopes[2 + i] = f.v_rate.d[i];
+  }
 }
 
 /// Wrench and values.
@@ -347,34 +392,30 @@ void rolling_tyre_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
       add_rolling_rows(in, c, l.stiffness, keys.damping, keys.spinning, {}, out);
   } else if constexpr (std::is_same_v<S, double>) {
     using T = DualNumber<4>;
-    RollingMotion<T> at = m.template over<T>();
+    RollingMotion<T, double> at{m.load, m.deflection, m.camber, m.v_cx,
+                                m.v_sx, m.v_sy,       m.spin,   m.friction};
     if (keys.spinning) at.v_sx = T::variable(m.v_sx, 2);
     at.v_sy = T::variable(m.v_sy, 3);
     const T z[] = {T::variable(states ? in.state(0) : 0.0, 0),
                    T::variable(states ? in.state(1) : 0.0, 1)};
-    const RollingForces<T> f =
-        rolling_forces<Law, T>(keys, data, at, states ? z : nullptr, in.rest_slopes);
-    const RollingForces<double> value{
-        {f.of.F_x.v, f.of.F_y.v, f.of.M_x.v, f.of.M_y.v, f.of.M_z.v, f.of.friction_use.v},
-        f.kappa.v,
-        f.tan_alpha.v,
-        f.u_rate.v,
-        f.v_rate.v,
-        f.energy.v};
-    put_rolling_forces(c, m, r_e, keys.spinning, value, out);
-    out.energy = value.energy;
-    if (states) {
-      out.state_rates[0] = value.u_rate;
-      out.state_rates[1] = value.v_rate;
-      for (int i = 0; i < 2; ++i) {
-        out.state_slopes[i] = f.u_rate.d[i];
-        out.state_slopes[2 + i] = f.v_rate.d[i];
-      }
-    }
+    RollingForces<T, double> f =
+        rolling_slips<Law>(keys, data, at, states ? z : nullptr, in.rest_slopes);
+    if (states) put_rolling_rates(f, out);
+    if (in.rates_alone) return;
+    add_tyre_forces<Law>(keys, data, at, f);
+    const TyreForces<T, double>& of = f.of;
+    put_rolling_forces(
+        c, m, r_e, keys.spinning,
+        RollingForces<double>{{of.F_x.v, of.F_y.v, of.M_x, of.M_y, of.M_z, of.friction_use},
+                              f.kappa.v,
+                              f.tan_alpha.v},
+        out);
+    out.energy = f.energy.v;
     add_rolling_rows(in, c, l.stiffness, keys.damping, keys.spinning, f, out);
   } else {
-    const RollingForces<S> f =
-        rolling_forces<Law, S>(keys, data, m, states ? in.states : nullptr, in.rest_slopes);
+    RollingForces<S> f =
+        rolling_slips<Law>(keys, data, m, states ? in.states : nullptr, in.rest_slopes);
+    add_tyre_forces<Law>(keys, data, m, f);
     put_rolling_forces(c, m, r_e, keys.spinning, f, out);
     out.energy = f.energy;
     if (states) {

@@ -135,7 +135,7 @@ BranchSide rolling_side(const Ports& in) noexcept {
   const bool pieces = in.keys<typename Law::Keys>().contact == TyreContact::point;
   const auto branch_of = [&](std::size_t stretch) noexcept {
     const auto [l, x] = at(RollingBranch::of(stretch, false));
-    return RollingBranch::of(stretch, l.deflection > 0.0 && l.load > 0.0);
+    return RollingBranch::of(stretch, l.spring > 0.0 && l.load > 0.0);
   };
   if (in.branch == free_branch) {
     const double x = contact_of_tyre<Law>(in).x;
@@ -143,9 +143,9 @@ BranchSide rolling_side(const Ports& in) noexcept {
   }
   const RollingBranch held{in.branch};
   const auto [l, x] = at(in.branch);
-  // The force expressed as a depth.
-  const double push = l.load / (l.stiffness > 0.0 ? l.stiffness : 1.0);
-  const double touch = held.touches() ? -push : std::min(l.deflection, push);
+  // Forces expressed as depths.
+  const double stiffness = l.stiffness > 0.0 ? l.stiffness : 1.0, push = l.load / stiffness;
+  const double touch = held.touches() ? -push : std::min(l.spring / stiffness, push);
   if (pieces) {
     const StretchSide s = stretch_side(road, held.stretch(), x);
     if (s.beyond > touch) return {s.beyond, branch_of(s.next)};
@@ -167,7 +167,7 @@ struct RollingRest {
     if (!touches) return;
     const auto& keys = in.keys<typename Law::Keys>();
     const auto& data = in.data<typename Law::Data>();
-    lengths = Law::lengths(keys, data, l.load, c.camber, c.friction);
+    lengths = limited_lengths<Law>(keys, data, l.load, c.camber, c.friction);
     r_e = Law::effective_radius(keys, data, l.load, l.deflection, c.spin);
   }
 };
@@ -272,6 +272,7 @@ constexpr ElementKind rolling_tyre_kind() {
     if (!std::get<Keys>(*element.keys).relaxation) return;
     element.states = rolling::states;
     element.kept = rolling::kept;
+    element.rates_first = true;
   };
   kind.values = rolling_values;
   kind.start = rolling_start<Law>;
@@ -315,7 +316,7 @@ ElementExample rolling_example(std::size_t number, ExampleNumbers& numbers, type
   x.element.road = 0;
   if (!keys.relaxation) return x;
   const double load = Law::load(keys, data, depth, 0.0, 0.0);
-  const TyreLengths<double> l = Law::lengths(keys, data, load, 0.0, 1.0);
+  const TyreLengths<double> l = limited_lengths<Law>(keys, data, load, 0.0, 1.0);
   const bool slides = regime == RollingRegime::slides;
   // Against the slip, so that the deflection grows where it slides.
   const auto part = [&] {

@@ -66,14 +66,14 @@ S calspan_friction(const Calspan& c, const S& load) noexcept {
 }
 
 /// Side force and aligning moment at a load [N], friction factor of the road, slip angle and camber
-/// [rad].
-template <class S>
-CalspanForces<S> calspan_forces(const Calspan& c, const S& load, const S& friction, const S& alpha,
-                                const S& gamma) noexcept {
+/// [rad]. B: a scalar of what the slip does not change, as in magic_formula.hpp.
+template <class S, class B>
+CalspanForces<S> calspan_forces(const Calspan& c, const B& load, double friction, const S& alpha,
+                                const B& gamma) noexcept {
   using std::abs;
   CalspanForces<S> out{0.0, 0.0, 0.0};
   if (!(load > 0.0) || !(friction > 0.0)) return out;
-  const S limit = friction * load * calspan_friction(c, load);
+  const B limit = friction * load * calspan_friction(c, load);
   const S linear =
       calspan_cornering_stiffness(c, load) * alpha + calspan_camber_stiffness(c, load) * gamma;
   S use = 1.0;
@@ -82,7 +82,7 @@ CalspanForces<S> calspan_forces(const Calspan& c, const S& load, const S& fricti
     use = x * (1.0 - x / 3.0 + x * x / 27.0);
   }
   out.friction_use = use;
-  out.Fy = (linear < 0.0 ? limit : -limit) * use;
+  out.Fy = (linear < 0.0 ? limit : B(-limit)) * use;
   out.Mz = out.Fy * (c.AF1 * load + c.AF2 * abs(out.Fy));
   return out;
 }

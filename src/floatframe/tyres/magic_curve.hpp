@@ -1,5 +1,6 @@
 #pragma once
-// Pieces of the Magic Formula over a scalar S, double or dual number:
+// Pieces of the Magic Formula over a scalar S, double or dual number; another one, B, is that of
+// what the slips do not change, and E of either:
 //   argument   A(x) = B x - E (B x - atan(B x))
 //   force      D sin(C atan A),   weight and trail   cos(C atan A)
 // E is limited to 1: above, the curve would turn back. Source: H. B. Pacejka, Tire and Vehicle
@@ -61,20 +62,20 @@ S parabola(const double (&a)[3], const S& x) noexcept {
 }
 
 /// B x - E (B x - atan(B x)), E at most 1.
-template <class S>
-S magic_argument(const S& Bx, const S& E) noexcept {
+template <class S, class B>
+S magic_argument(const S& Bx, const B& E) noexcept {
   if (value_of(E) > 1.0) return arctan(Bx);
   return Bx - E * (Bx - arctan(Bx));
 }
 /// sin(C atan(B x - E (B x - atan(B x)))).
-template <class S>
-S magic_sine(double C, const S& Bx, const S& E) noexcept {
+template <class S, class B>
+S magic_sine(double C, const S& Bx, const B& E) noexcept {
   using std::sin;
   return sin(S(C * arctan(magic_argument(Bx, E))));
 }
 /// cos(C atan(B x - E (B x - atan(B x)))).
-template <class S>
-S magic_cosine(double C, const S& Bx, const S& E) noexcept {
+template <class S, class B>
+S magic_cosine(double C, const S& Bx, const B& E) noexcept {
   using std::cos;
   return cos(S(C * arctan(magic_argument(Bx, E))));
 }
@@ -83,6 +84,7 @@ S magic_cosine(double C, const S& Bx, const S& E) noexcept {
 template <class S>
 S sine_over(double p, const S& x) noexcept {
   using std::sin;
+  if (p == 2.0) return 2.0 / (1.0 + x * x);
   // p (1 - x^2 (2 + p^2)/6 + O(x^4)) is exact to rounding below.
   if (std::abs(value_of(x)) < 1e-4) return p * (1.0 - (2.0 + p * p) / 6.0 * x * x);
   return sin(S(p * arctan(x))) / x;

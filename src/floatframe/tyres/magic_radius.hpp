@@ -24,28 +24,38 @@ S free_radius(const MagicTyre& t, const S& spin) noexcept {
   return t.R0 * (t.q_re0 + t.q_v1 * turn * turn);
 }
 
+/// rho of 6.2: what camber adds to R_omega - Rl. Far in the air it grows no further.
+template <class S>
+S cambered_deflection(const MagicTyre& t, const S& radius, const S& free, const S& gamma) noexcept {
+  using std::abs, std::cos, std::sin;
+  constexpr double far = 1.1;
+  S rho = free - radius;
+  const S tilted = rho;
+  if (t.q_cam[0] != 0.0 || t.q_cam[1] != 0.0) {
+    const S near = value_of(radius) < far * value_of(free) ? radius : S(far * free);
+    const S shape =
+        (t.q_cam[0] + t.q_cam[1] * near) * (near / free) / (t.q_cam[0] + t.q_cam[1] * free);
+    rho += shape * shape * (t.tread / 8.0) * abs(S(sin(gamma) / cos(gamma)));
+  }
+  return rho - t.q_cam[2] * tilted * abs(gamma);
+}
+
 /// Load [N] of a loaded radius [m] without damping, with the forces Fx and Fy [N]; in the air it
-/// continues in a straight line below zero.
+/// continues in a straight line below zero, so that it is zero where the tyre begins to touch.
 template <class S>
 S magic_load(const MagicTyre& t, const S& radius, const S& camber, const S& spin, const S& Fx,
              const S& Fy) noexcept {
-  using std::abs, std::cos, std::pow, std::sin;
+  using std::abs, std::pow;
   const S free = free_radius(t, spin);
   const S faster = 1.0 + t.q_v2 * t.R0 / t.V0 * abs(spin);
-  S rho = free - radius;
-  if (!(value_of(rho) > 0.0)) return faster * (t.qz[0] / t.R0) * rho;
   const S gamma = t.mirror * camber;
+  const bool mf62 = t.version == MagicVersion::mf62;
+  const S rho = mf62 ? cambered_deflection(t, radius, free, gamma) : S(free - radius);
+  if (!(value_of(rho) > 0.0)) return faster * (t.qz[0] / t.R0) * rho;
   S side = t.q_fcy * t.mirror * Fy / t.Fz0;
-  if (t.version == MagicVersion::mf62) {
+  if (mf62) {
     const S ratio = radius / free;
     const S skew = t.q_fys[0] + (t.q_fys[1] + t.q_fys[2] * ratio) * ratio;
-    const S tilted = rho;
-    if (t.q_cam[0] != 0.0 || t.q_cam[1] != 0.0) {
-      const S shape = (t.q_cam[0] + t.q_cam[1] * radius) * ratio / (t.q_cam[0] + t.q_cam[1] * free);
-      rho += shape * shape * (t.tread / 8.0) * abs(S(sin(gamma) / cos(gamma)));
-    }
-    rho -= t.q_cam[2] * tilted * abs(gamma);
-    if (!(value_of(rho) > 0.0)) return faster * (t.qz[0] / t.R0) * rho;
     side = t.q_fcy * (t.mirror * Fy - skew * gamma) / t.Fz0;
     if (t.q_fcy2 != 0.0) side = side * pow(S(rho / t.R0), t.q_fcy2);
   }
@@ -109,54 +119,77 @@ inline MagicPatch magic_patch(const MagicTyre& t, double load) noexcept {
           t.width * (t.q_rb[0] * std::cbrt(x) + t.q_rb[1] * x)};
 }
 
-/// The slip times B at which sin(C atan(A)) is largest: A = tan(pi/(2 C)); a curve of C near 1 and
-/// below, which has no peak, is taken where it is within 1 % of its limit. Newton's method on the
-/// value, which is monotonic here; the derivative is that of the solution.
+/// A = tan(pi/(2 C)), where sin(C atan(A)) is largest; a curve of C near 1 and below, which has no
+/// peak, is taken where it is within 1 % of its limit.
+inline double magic_peak_argument(double C) noexcept {
+  constexpr double latest = 1.43;
+  return std::tan(std::min(0.5 * std::numbers::pi / C, latest));
+}
+inline constexpr double farthest_peak = 30.0;
+/// The slip times B of that: A = y - E (y - atan(y)). Newton's method on the value, which is
+/// monotonic here; the derivative is that of the solution.
 template <class S>
-S magic_peak(double C, const S& E) noexcept {
-  constexpr double latest = 1.43, farthest = 30.0;
-  const double target = std::tan(std::min(0.5 * std::numbers::pi / C, latest));
+S magic_peak(double argument, const S& E) noexcept {
   const double e = std::min(value_of(E), 1.0);
-  double y = std::min(target, farthest), slope = 1.0;
+  double y = std::min(argument, farthest_peak), slope = 1.0;
   for (int k = 0; k < 20; ++k) {
     slope = 1.0 - e * (1.0 - 1.0 / (1.0 + y * y));
-    const double change = (target - y + e * (y - std::atan(y))) / std::max(slope, 1e-6);
-    y = std::clamp(y + change, 0.0, farthest);
-    if (std::abs(change) <= 1e-13 * y || y == farthest) break;
+    const double change = (argument - y + e * (y - std::atan(y))) / std::max(slope, 1e-6);
+    y = std::clamp(y + change, 0.0, farthest_peak);
+    // What is left is the square of it, and the last line takes that as well.
+    if (std::abs(change) <= 1e-5 * y || y == farthest_peak) break;
   }
-  if (y == farthest || value_of(E) > 1.0) return y;
-  return y + (target - y + E * (y - std::atan(y))) / slope;
+  if (y == farthest_peak || value_of(E) > 1.0) return y;
+  return y + (argument - y + E * (y - std::atan(y))) / slope;
+}
+/// It is not below this: y - atan(y) is between 0 and y.
+template <class S>
+double least_magic_peak(double argument, const S& E) noexcept {
+  return std::min(argument / (1.0 + std::max(0.0, -value_of(E))), farthest_peak);
 }
 
 template <class S>
 struct MagicLengths {
   S sigma_x = 0.0, sigma_y = 0.0;  ///< relaxation lengths [m]
   S Cx = 0.0, Cy = 0.0;            ///< stiffnesses of the standing tyre [N/m]
-  /// Slips of the largest forces on a road of friction 1, without shifts [-], [rad].
-  S peak_x = 0.0, peak_y = 0.0;
 };
-/// Relaxation lengths at a load and a camber; at zero load those of 6.x and 5.2 vanish.
+/// Slips of the largest forces on a road of friction 1, without shifts [-], [rad].
 template <class S>
-MagicLengths<S> magic_lengths(const MagicTyre& t, const S& load, const S& camber) noexcept {
+struct MagicPeaks {
+  S x = 0.0, y = 0.0;
+};
+/// What both follow from.
+template <class S>
+struct MagicStanding {
+  S Fz, dfz, gamma;
+  S Kx, Ky;  ///< divided by Fz
+  MagicStanding(const MagicTyre& t, const S& load, const S& camber) noexcept
+      : Fz(t.limited ? within(load, t.load.least, t.load.most) : load),
+        dfz((Fz - t.nominal_load) / t.nominal_load),
+        gamma(t.mirror * camber) {
+    if (t.limited) gamma = within(gamma, t.inclination.least, t.inclination.most);
+    Kx = magic_slip_stiffness(t, dfz);
+    Ky = magic_side_stiffness(t, Fz, S(t.gamma_y * gamma));
+  }
+};
+/// At a positive load and a camber. `least`: lower bounds of them, which cost little.
+template <class S>
+MagicPeaks<S> magic_peaks(const MagicTyre& t, const MagicStanding<S>& s, bool least) noexcept {
+  using std::abs;
+  const S leaning = t.gamma_y * s.gamma, square = leaning * leaning;
+  const S Ex = parabola(t.Ex, s.dfz), Ey = line(t.Ey, s.dfz) * (1.0 + t.Ey_camber * square);
+  const S x = least ? S(least_magic_peak(t.peak_x, Ex)) : magic_peak(t.peak_x, Ex);
+  const S y = least ? S(least_magic_peak(t.peak_y, Ey)) : magic_peak(t.peak_y, Ey);
+  return {x * t.Cx * magic_friction_x(t, s.dfz, S(t.gamma_x * s.gamma)) / s.Kx,
+          y * t.Cy * abs(S(magic_friction_y(t, s.dfz, square) / s.Ky))};
+}
+/// Relaxation lengths at a load and a camber.
+template <class S>
+MagicLengths<S> magic_lengths(const MagicTyre& t, const S& load,
+                              const MagicStanding<S>& s) noexcept {
   using std::exp, std::abs;
   MagicLengths<S> l;
-  if (!(value_of(load) > 0.0)) return l;
-  MagicState<S> s;
-  s.Fz = t.limited ? within(load, t.load.least, t.load.most) : load;
-  s.dfz = (s.Fz - t.nominal_load) / t.nominal_load;
-  s.gamma = t.mirror * camber;
-  if (t.limited) s.gamma = within(s.gamma, t.inclination.least, t.inclination.most);
-  s.lean = s.gamma;
-  s.friction = 1.0;
-  s.kappa = 0.0;
-  s.alpha = 0.0;
-  const MagicLongitudinal<S> x = magic_longitudinal(t, s);
-  const MagicLateral<S> y = magic_lateral(t, s, s.gamma);
-  const S Kx = x.K * load, Ky = abs(S(y.K * load));
-  const S square = t.gamma_y * t.gamma_y * s.gamma * s.gamma;
-  l.peak_x = magic_peak(t.Cx, parabola(t.Ex, s.dfz)) * t.Cx * x.mu / x.K;
-  l.peak_y = magic_peak(t.Cy, S(line(t.Ey, s.dfz) * (1.0 + t.Ey_camber * square))) * t.Cy *
-             abs(S(y.mu / y.K));
+  const S Kx = s.Kx * load, Ky = abs(S(s.Ky * load));
   if (t.fixed_sigma > 0.0) {
     l.sigma_x = l.sigma_y = t.fixed_sigma;
   } else if (t.version == MagicVersion::mf52) {
@@ -175,6 +208,12 @@ MagicLengths<S> magic_lengths(const MagicTyre& t, const S& load, const S& camber
   l.Cx = Kx / l.sigma_x;
   l.Cy = Ky / l.sigma_y;
   return l;
+}
+/// At zero load those of 6.x and 5.2 vanish.
+template <class S>
+MagicLengths<S> magic_lengths(const MagicTyre& t, const S& load, const S& camber) noexcept {
+  if (!(value_of(load) > 0.0)) return {};
+  return magic_lengths(t, load, MagicStanding<S>(t, load, camber));
 }
 
 }  // namespace floatframe

@@ -6,6 +6,7 @@
 
 #include "floatframe/core/number_rule.hpp"
 #include "floatframe/core/suggest.hpp"
+#include "floatframe/tyres/magic_radius.hpp"
 
 namespace floatframe {
 
@@ -149,6 +150,7 @@ class MagicReader {
 
   void longitudinal() {
     t_.Cx = c("PCX1") * c("LCX");
+    t_.peak_x = magic_peak_argument(t_.Cx);
     pair(t_.mux, "PDX1", "PDX2", c("LMUX") * pressed(c("PPX3"), c("PPX4")));
     t_.mux_camber = c("PDX3");
     pair(t_.Kx, "PKX1", "PKX2", c("LKX") * pressed(c("PPX1"), c("PPX2")));
@@ -167,6 +169,7 @@ class MagicReader {
 
   void lateral() {
     t_.Cy = c("PCY1") * c("LCY");
+    t_.peak_y = magic_peak_argument(t_.Cy);
     t_.muy_side = c("PDY1") < 0.0 ? -1.0 : 1.0;
     pair(t_.muy, "PDY1", "PDY2", t_.muy_side * c("LMUY") * pressed(c("PPY3"), c("PPY4")));
     t_.muy_camber = c("PDY3");

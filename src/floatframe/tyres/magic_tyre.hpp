@@ -62,6 +62,8 @@ struct MagicTyre {
   // Its weight with a slip angle, (4.E50) - (4.E57).
   double Bxa = 0.0, Bxa_camber = 0.0, Bxa_slip = 0.0, Cxa = 0.0, Exa[2] = {}, SHxa = 0.0;
 
+  double peak_x = 1.0, peak_y = 1.0;  ///< tan(pi/(2 C)) of both forces (magic_radius.hpp)
+
   // Lateral force of pure slip, (4.E19) - (4.E30).
   double Cy = 0.0;
   double muy[2] = {}, muy_camber = 0.0, muy_side = 1.0;  ///< PDY1 may be negative: then so is side

@@ -124,33 +124,34 @@ struct TmeasyValues {
 };
 
 /// The trail over the contact length at the lateral slip sy.
-template <class S>
-S tmeasy_trail(const Tmeasy& t, const S& load, const S& friction, const S& sy) noexcept {
+template <class S, class B>
+S tmeasy_trail(const Tmeasy& t, const B& load, const B& friction, const S& sy) noexcept {
   using std::abs;
   const double pn = t.nominal_load;
-  const S w = tmeasy_held_load(t, load);
-  const S end = friction * tmeasy_linear(t.trail.end_slip, pn, w);
+  const B w = tmeasy_held_load(t, load);
+  const B end = friction * tmeasy_linear(t.trail.end_slip, pn, w);
   const S slip = abs(sy);
   if (!(slip < end)) return 0.0;
-  const S zero = friction * tmeasy_linear(t.trail.zero_slip, pn, w);
+  const B zero = friction * tmeasy_linear(t.trail.zero_slip, pn, w);
   const S rest = 1.0 - slip / end;
   return tmeasy_linear(t.trail.at_zero, pn, w) * (1.0 - slip / zero) * rest * rest *
          (1.0 + (1.0 / zero + 2.0 / end) * slip);
 }
 
-/// Forces and aligning moment at a load [N], a friction factor and the slips sx, sy.
-template <class S>
-TmeasyForces<S> tmeasy_forces(const Tmeasy& t, const S& load, const S& friction, const S& sx,
+/// Forces and aligning moment at a load [N], a friction factor and the slips sx, sy. B: a scalar of
+/// what the slips do not change, as in magic_formula.hpp.
+template <class S, class B>
+TmeasyForces<S> tmeasy_forces(const Tmeasy& t, const B& load, const B& friction, const S& sx,
                               const S& sy) noexcept {
   using std::sqrt;
   TmeasyForces<S> out{0.0, 0.0, 0.0, 0.0, 0.0};
   if (!(load > 0.0) || !(friction > 0.0)) return out;
-  const S w = tmeasy_held_load(t, load);
-  const TmeasyValues<S> x(t.x, t.nominal_load, w, friction), y(t.y, t.nominal_load, w, friction);
-  S hx = 1.0, hy = 1.0;
+  const B w = tmeasy_held_load(t, load);
+  const TmeasyValues<B> x(t.x, t.nominal_load, w, friction), y(t.y, t.nominal_load, w, friction);
+  B hx = 1.0, hy = 1.0;
   if (t.normalised) {
-    const S qx = x.maximum / x.slope, qy = y.maximum / y.slope;
-    const S slips = x.maximum_slip + y.maximum_slip;
+    const B qx = x.maximum / x.slope, qy = y.maximum / y.slope;
+    const B slips = x.maximum_slip + y.maximum_slip;
     hx = x.maximum_slip / slips + qx / (qx + qy);
     hy = y.maximum_slip / slips + qy / (qx + qy);
   }
@@ -158,24 +159,24 @@ TmeasyForces<S> tmeasy_forces(const Tmeasy& t, const S& load, const S& friction,
   const S nx = sx / hx, ny = sy / hy;
   const S square = nx * nx + ny * ny + small;
   const S c2 = (nx * nx + 0.5 * small) / square, d2 = (ny * ny + 0.5 * small) / square;
-  const auto combined = [&](const S& ax, const S& ay) -> S {
+  const auto combined = [&](const B& ax, const B& ay) -> S {
     return sqrt(S(ax * ax * c2 + ay * ay * d2));
   };
-  const S slope_x = x.slope * hx, slope_y = y.slope * hy;
+  const B slope_x = x.slope * hx, slope_y = y.slope * hy;
   const S slope = combined(slope_x, slope_y), s = sqrt(square);
   const S maximum = combined(x.maximum, y.maximum);
   const S force = tmeasy_curve_over_slip<S>(slope, maximum, combined(x.sliding, y.sliding),
                                             combined(x.maximum_slip / hx, y.maximum_slip / hy),
                                             combined(x.sliding_slip / hx, y.sliding_slip / hy), s);
   // The slopes of each axis where the slip has no direction, the combined one elsewhere.
-  const S ax = slope_x * slope_x, ay = slope_y * slope_y;
+  const B ax = slope_x * slope_x, ay = slope_y * slope_y;
   const S of_x = sqrt(S((ax * (nx * nx + small) + ay * ny * ny) / square)) / slope;
   const S of_y = sqrt(S((ax * nx * nx + ay * (ny * ny + small)) / square)) / slope;
   out.Fx = w * force * of_x * nx;
   out.Fy = w * force * of_y * ny;
   out.friction_use = force * s / maximum;
   out.trail = tmeasy_trail(t, load, friction, sy);
-  const S contact_length = 2.0 * sqrt(S(t.radius / t.stiffness * load));
+  const B contact_length = 2.0 * sqrt(B(t.radius / t.stiffness * load));
   out.Mz = -out.trail * contact_length * out.Fy;
   return out;
 }

@@ -45,15 +45,15 @@ struct CalspanTyreLaw {
     l.limit_y = 3.0 * most / l.stiffness_y;
     return l;
   }
-  template <class S>
-  static TyreForces<S> forces(const Keys&, const Data& data, const TyreInput<S>& x) noexcept {
+  template <class S, class B>
+  static TyreForces<S, B> forces(const Keys&, const Data& data, const TyreInput<S, B>& x) noexcept {
     using std::atan2;
     const CalspanForces<S> of =
-        calspan_forces(data, x.load, S(x.friction), S(atan2(x.tan_alpha, S(1.0))), x.camber);
-    TyreForces<S> f;
+        calspan_forces(data, x.load, x.friction, S(atan2(x.tan_alpha, S(1.0))), x.camber);
+    TyreForces<S, B> f;
     f.F_y = of.Fy;
-    f.M_z = of.Mz;
-    f.friction_use = of.friction_use;
+    f.M_z = in_scalar<B>(of.Mz);
+    f.friction_use = in_scalar<B>(of.friction_use);
     return f;
   }
 };
@@ -177,6 +177,7 @@ constexpr ElementKind calspan_kind() {
     if (!keys.relaxation || !keys.relaxation_y) return;
     element.states = rolling::states;
     element.kept = rolling::kept;
+    element.rates_first = true;
   };
   kind.example = calspan_example;
   return kind;

@@ -48,22 +48,23 @@ struct LinearTyreLaw {
     l.limit_y = most / l.stiffness_y;
     return l;
   }
-  template <class S>
-  static TyreForces<S> forces(const Keys& keys, const Data&, const TyreInput<S>& x) noexcept {
+  template <class S, class B>
+  static TyreForces<S, B> forces(const Keys& keys, const Data&, const TyreInput<S, B>& x) noexcept {
     using std::sqrt;
-    const S q = part(keys, x.load), most = x.friction * keys.friction * x.load;
-    TyreForces<S> f;
+    const B q = part(keys, x.load), most = x.friction * keys.friction * x.load;
+    TyreForces<S, B> f;
     f.F_x = q * keys.slip_stiffness * x.kappa;
-    const S side = -(q * keys.cornering_stiffness * x.tan_alpha);
+    S side = -(q * keys.cornering_stiffness * x.tan_alpha);
     f.F_y = side - q * keys.camber_stiffness * x.camber;
-    f.M_y = -keys.rolling_resistance * x.load * S(keys.radius - x.deflection);
-    f.M_z = -keys.trail * side;
-    f.friction_use = sqrt(S(f.F_x * f.F_x + f.F_y * f.F_y)) / most;
-    if (value_of(f.friction_use) <= 1.0) return f;
-    f.F_x /= f.friction_use;
-    f.F_y /= f.friction_use;
-    f.M_z /= f.friction_use;
-    f.friction_use = 1.0;
+    f.M_y = -keys.rolling_resistance * x.load * B(keys.radius - x.deflection);
+    const S use = sqrt(S(f.F_x * f.F_x + f.F_y * f.F_y)) / most;
+    if (value_of(use) > 1.0) {
+      f.F_x /= use;
+      f.F_y /= use;
+      side /= use;
+    }
+    f.M_z = in_scalar<B>(S(-keys.trail * side));
+    f.friction_use = value_of(use) > 1.0 ? B(1.0) : in_scalar<B>(use);
     return f;
   }
   template <class S>

@@ -43,39 +43,50 @@ struct MagicTyreLaw {
   template <class S>
   static TyreLengths<S> lengths(const Keys&, const Data& data, const S& load, const S& camber,
                                 double friction) noexcept {
-    const MagicLengths<S> m = magic_lengths(data.tyre, load, camber);
+    const MagicStanding<S> at(data.tyre, load, camber);
+    const MagicLengths<S> m = magic_lengths(data.tyre, load, at);
     const double least = 0.05 * data.tyre.R0;
     TyreLengths<S> l;
     l.sigma_x = at_least(m.sigma_x, least);
     l.sigma_y = at_least(m.sigma_y, least);
     l.stiffness_x = m.Cx * m.sigma_x / l.sigma_x;
     l.stiffness_y = m.Cy * m.sigma_y / l.sigma_y;
-    l.limit_x = friction * m.peak_x * l.sigma_x;
-    l.limit_y = friction * m.peak_y * l.sigma_y;
+    put_limits(magic_peaks(data.tyre, at, true), friction, l);
     return l;
   }
   template <class S>
-  static TyreForces<S> forces(const Keys&, const Data& data, const TyreInput<S>& x) noexcept {
+  static void limits(const Keys&, const Data& data, const S& load, const S& camber, double friction,
+                     TyreLengths<S>& l) noexcept {
+    const MagicStanding<S> at(data.tyre, load, camber);
+    put_limits(magic_peaks(data.tyre, at, false), friction, l);
+  }
+  template <class S>
+  static void put_limits(const MagicPeaks<S>& slip, double friction, TyreLengths<S>& l) noexcept {
+    l.limit_x = friction * slip.x * l.sigma_x;
+    l.limit_y = friction * slip.y * l.sigma_y;
+  }
+  template <class S, class B>
+  static TyreForces<S, B> forces(const Keys&, const Data& data, const TyreInput<S, B>& x) noexcept {
     using std::sqrt;
     // The generic law turns and fades the rolling moment of a wheel that rolls forwards.
-    const S forwards = 1.0 + data.tyre.turning_speed;
-    const MagicForces<S> f = magic_forces(
-        data.tyre, MagicInput<S>{x.load, x.kappa, x.tan_alpha, x.camber, x.v_cx,
-                                 value_of(x.v_cx) < 0.0 ? S(-forwards) : forwards, x.friction});
-    TyreForces<S> out;
+    const double forwards = 1.0 + data.tyre.turning_speed;
+    const MagicForces<S, B> f = magic_forces(
+        data.tyre, MagicInput<S, B>{x.load, x.kappa, x.tan_alpha, x.camber, x.v_cx,
+                                    value_of(x.v_cx) < 0.0 ? -forwards : forwards, x.friction});
+    TyreForces<S, B> out;
     out.F_x = f.Fx;
     out.F_y = f.Fy;
     out.M_x = f.Mx;
-    out.M_y = value_of(x.v_cx) < 0.0 ? S(-f.My) : f.My;
+    out.M_y = value_of(x.v_cx) < 0.0 ? B(-f.My) : f.My;
     out.M_z = f.Mz;
-    const S a = f.Fx / (f.mux * x.load), b = f.Fy / (f.muy * x.load);
-    out.friction_use = sqrt(S(a * a + b * b));
+    const B a = in_scalar<B>(f.Fx) / (f.mux * x.load), b = in_scalar<B>(f.Fy) / (f.muy * x.load);
+    out.friction_use = sqrt(B(a * a + b * b));
     return out;
   }
   template <class S>
   static S energy(const Keys&, const Data& data, const S& deflection) noexcept {
     const MagicTyre& t = data.tyre;
-    const S rho = deflection + t.R0 * (t.q_re0 - 1.0), x = rho / t.R0;
+    const S rho = deflection + t.R0 * (t.q_re0 - 1.0), x = at_least(S(rho / t.R0), 0.0);
     return t.R0 * x * x * (0.5 * t.qz[0] + t.qz[1] / 3.0 * x);
   }
 };

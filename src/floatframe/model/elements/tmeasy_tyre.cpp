@@ -1,5 +1,5 @@
 // TMeasy tyre (tyres/tmeasy.hpp) in the contact and with the states of rolling_tyre.hpp; ISO-W.
-//   load        a1 d + a2 d^2, whose slopes at pn and 2 pn are c1, c2:
+//   load        a1 d + a2 d^2, a1 d in the air, whose slopes at pn and 2 pn are c1, c2:
 //               a2 = (c2^2 - c1^2)/(4 pn), a1 = sqrt(2 c1^2 - c2^2)
 //   radius      r_e = R - (1 - q) d, q = rolling_radius
 //   slips       with s = V_cx/sqrt(V_cx^2 + v_r^2), the sense of rolling, and the speed of the
@@ -40,7 +40,7 @@ struct TmeasyTyreLaw {
   static bool mirrored(const Keys&, const Data&) noexcept { return false; }
   template <class S>
   static S load(const Keys&, const Data& data, const S& d, const S&, const S&) noexcept {
-    return d * (data.a1 + data.a2 * d);
+    return value_of(d) > 0.0 ? S(d * (data.a1 + data.a2 * d)) : S(data.a1 * d);
   }
   template <class S>
   static S effective_radius(const Keys& keys, const Data&, const S&, const S& d,
@@ -69,17 +69,18 @@ struct TmeasyTyreLaw {
     l.limit_y = mu * tmeasy_linear(t.y.maximum_slip, t.nominal_load, held) * l.sigma_y;
     return l;
   }
-  template <class S>
-  static TyreForces<S> forces(const Keys& keys, const Data& data, const TyreInput<S>& x) noexcept {
+  template <class S, class B>
+  static TyreForces<S, B> forces(const Keys& keys, const Data& data,
+                                 const TyreInput<S, B>& x) noexcept {
     const S tread = tmeasy_tread_speed(S(1.0 + sense_of_rolling(x.v_cx) * x.kappa));
-    const TmeasyForces<S> of = tmeasy_forces(data.tyre, x.load, S(x.friction * keys.friction),
+    const TmeasyForces<S> of = tmeasy_forces(data.tyre, x.load, B(x.friction * keys.friction),
                                              S(x.kappa / tread), S(-x.tan_alpha / tread));
-    TyreForces<S> f;
+    TyreForces<S, B> f;
     f.F_x = of.Fx;
     f.F_y = of.Fy;
-    f.M_z = of.Mz;
-    f.M_y = -keys.rolling_resistance * x.load * S(keys.radius - x.deflection);
-    f.friction_use = of.friction_use;
+    f.M_z = in_scalar<B>(of.Mz);
+    f.M_y = -keys.rolling_resistance * x.load * B(keys.radius - x.deflection);
+    f.friction_use = in_scalar<B>(of.friction_use);
     return f;
   }
   template <class S>
