@@ -10,6 +10,7 @@
 #include "floatframe/model/model_hash.hpp"
 #include "floatframe/model_file/load_model.hpp"
 #include "floatframe/vehicle/lane_change.hpp"
+#include "floatframe/vehicle/lane_path.hpp"
 #include "floatframe/vehicle/manoeuvre_report.hpp"
 #include "floatframe/vehicle/manoeuvres.hpp"
 #include "support/contains.hpp"
@@ -110,29 +111,54 @@ TEST(SteadyCircle, HasTheGradientsOfTheLinearEquations) {
   }
 }
 
-TEST(LaneChange, SplineHasTheLeastCurvature) {
-  const std::vector<double> x{0.0, 2.0, 3.0, 7.0}, y{0.0, 1.0, -1.0, 0.5};
-  const std::vector<double> M = spline_curvatures(x, y);
-  EXPECT_EQ(M.back(), 0.0);
-  // The slope is zero at the first knot and continuous at the others.
-  const auto slope = [&](std::size_t k, bool right) {
-    const std::size_t i = right ? k : k - 1;
-    const double h = x[i + 1] - x[i], s = (y[i + 1] - y[i]) / h;
-    return right ? s - h / 6.0 * (2.0 * M[i] + M[i + 1]) : s + h / 6.0 * (M[i] + 2.0 * M[i + 1]);
-  };
-  EXPECT_NEAR(slope(0, true), 0.0, 1e-14);
-  EXPECT_NEAR(slope(1, true), slope(1, false), 1e-13);
-  EXPECT_NEAR(slope(2, true), slope(2, false), 1e-13);
+/// Of a path of points 1 m apart: the largest curvature, and the smallest clearance of a vehicle
+/// whose heading is y' - l y''.
+struct PathFigures {
+  double curvature = 0.0, clearance = 1e9, squares = 0.0;
+};
+PathFigures figures_of(const std::vector<PathPoint>& points, const VehicleOutline& vehicle,
+                       double sideslip) {
+  PathFigures out;
+  for (std::size_t k = 1; k + 1 < points.size(); ++k) {
+    const double bend = points[k - 1].y - 2.0 * points[k].y + points[k + 1].y;
+    const double slope = 0.5 * (points[k + 1].y - points[k - 1].y);
+    out.curvature = std::max(out.curvature, std::abs(bend));
+    out.squares += bend * bend;
+    for (const LaneGate& gate : lane_gates(vehicle.width))
+      out.clearance = std::min(out.clearance, clearance(gate, vehicle, points[k].x, points[k].y,
+                                                        std::atan(slope - sideslip * bend)));
+  }
+  return out;
 }
 
-TEST(LaneChange, PathPassesTheGates) {
-  for (const double width : {1.6, 1.8, 2.0})
-    for (const PathPoint& p : lane_change_path(width))
-      for (const LaneGate& gate : lane_gates(width)) {
-        if (p.x < gate.begin || p.x > gate.end) continue;
-        EXPECT_GT(p.y - 0.5 * width, gate.right) << width << " at " << p.x;
-        EXPECT_LT(p.y + 0.5 * width, gate.left) << width << " at " << p.x;
-      }
+// What the conditions keep is a margin for small angles: cos(8 deg) takes a hundredth of a length.
+TEST(LaneChange, PathKeepsTheMarginOfTheWholeVehicle) {
+  for (const double width : {1.5, 1.8, 2.0})
+    for (const double sideslip : {0.0, 1.2}) {
+      const VehicleOutline vehicle{.width = width, .front = 1.9, .rear = 2.2};
+      const std::vector<PathPoint> path = lane_change_path(vehicle, sideslip, 0.1);
+      EXPECT_EQ(path.front().x, -20.0);
+      EXPECT_EQ(path.front().y, 0.0);
+      EXPECT_GT(path.back().x, 61.0 + 2.2);
+      const PathFigures f = figures_of(path, vehicle, sideslip);
+      EXPECT_GT(f.clearance, 0.07) << width;
+      EXPECT_LT(f.curvature, 0.045) << width;
+    }
+}
+
+// With one gate-wide vehicle length of zero: a cubic through the points that touch, by (1).
+TEST(LaneChange, PathBendsLeastWhereItTouches) {
+  const VehicleOutline point{.width = 1.5, .front = 0.0, .rear = 0.0};
+  const std::vector<PathPoint> path = lane_change_path(point, 0.0, 0.1);
+  // Between the gates nothing holds the path: with weights that are w = |y''|^2 the moment of a beam
+  // w y'' = y''^3 is linear in x between loads.
+  std::vector<double> moment;
+  for (std::size_t k = 1; k + 1 < path.size(); ++k)
+    if (path[k].x > 13.0 && path[k].x < 24.5)
+      moment.push_back(std::pow(path[k - 1].y - 2.0 * path[k].y + path[k + 1].y, 3));
+  const double largest = std::max(std::abs(moment.front()), std::abs(moment.back()));
+  for (std::size_t k = 1; k + 1 < moment.size(); ++k)
+    EXPECT_NEAR(moment[k - 1] - 2.0 * moment[k] + moment[k + 1], 0.0, 0.1 * largest);
 }
 
 TEST(LaneChange, IsDrivenSlowly) {
@@ -142,8 +168,8 @@ TEST(LaneChange, IsDrivenSlowly) {
   const LaneChangeResult r = lane_change(run, 8.0);
   EXPECT_NEAR(r.entry_speed, 8.0, 0.05);
   EXPECT_NEAR(r.exit_speed, 8.0, 0.05);
-  for (const double c : r.clearance) EXPECT_TRUE(std::isfinite(c));
-  EXPECT_EQ(r.passed, std::ranges::min(r.clearance) > 0.0);
+  EXPECT_GT(std::ranges::min(r.clearance), 0.0);
+  EXPECT_TRUE(r.passed);
   EXPECT_TRUE(contains(manoeuvre_report("car", r).text, "ISO 3888-2"));
 }
 

@@ -241,7 +241,7 @@ struct PathFollowing {
   double wheelbase = 0.0;       ///< [m]
   double course_gain = 10.0;    ///< omega_0 [1/s]
   double offset_gain = 0.5;     ///< omega_e [1/s]
-  double preview = 0.15;        ///< T [s]
+  double preview = 0.2;         ///< T [s]
   double yaw_gain = 0.08;       ///< k_r [s]
   double integral_time = 0.05;  ///< T_0 [s]
   double largest_angle = 0.7;   ///< [rad]

@@ -4,7 +4,9 @@
 //
 // Path follower. At the foot point of the vehicle's point on the path: the offset e, positive where
 // the path is to the left, and the angle from the course (the direction of the velocity, speed v)
-// to the path, theta; kappa is the curvature of the path the time T later, r the yaw rate.
+// to the path, theta; kappa is the curvature of the path at the distance v T - L/2 ahead, L the wheelbase, r the yaw
+// rate: the time T covers the delay of steering and tyres, and a point L/2 before the rear axle
+// turns that distance before its yaw rate does.
 //   aim       the course that leads to the path: tan(phi) = omega_e e / v
 //   demand    r_d = v kappa + omega(v) sin(theta + phi)                                         (1)
 //   angle     delta = L r_d / v + k_r (r_d - r) + z                                             (2)
@@ -81,7 +83,7 @@ PathAnswer<S> path_answer(const DrivenPath& path, const PathGains& gains, double
   const S cosine = (view.vx * tx + view.vy * ty) / (size * v);
   const S aim = gains.offset * out.offset / v;  // tan(phi)
   const double ahead = gains.preview * value_of(v);
-  const DrivenPath::Value then = path.at(out.s + ahead);
+  const DrivenPath::Value then = path.at(out.s + ahead - 0.5 * wheelbase);
   const S dq = ds + (gains.preview * v - ahead);
   const S dx = then.dx + then.ddx * dq, dy = then.dy + then.ddy * dq;
   const S bend = dx * (then.ddy + then.dddy * dq) - dy * (then.ddx + then.dddx * dq);

@@ -2,7 +2,7 @@
 // The driver of a manoeuvre: a path follower and a speed controller by the laws of
 // model/path_law.hpp, each evaluated once a step. With the default gains the single-track models of
 // docs/vehicle.md are stable from 5 to 40 m/s: all modes decay at 0.5 1/s or faster, with damping
-// ratios above 0.4. A mass without resistance follows its speed with the double eigenvalue -1 1/s.
+// ratios above 0.39. A mass without resistance follows its speed with the double eigenvalue -1 1/s.
 #include "floatframe/model/path_law.hpp"
 
 namespace floatframe {

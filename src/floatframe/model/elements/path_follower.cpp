@@ -118,7 +118,7 @@ constexpr ElementKey path_follower_keys[] = {
                        described_by<&PathFollowing::course_gain>),
     path_follower_gain("offset_gain", "ω_e", positive_number("1/s"), 0.5,
                        described_by<&PathFollowing::offset_gain>),
-    path_follower_gain("preview", "T", non_negative_number("s"), 0.15,
+    path_follower_gain("preview", "T", non_negative_number("s"), 0.2,
                        described_by<&PathFollowing::preview>),
     path_follower_gain("yaw_gain", "k_r", non_negative_number("s"), 0.08,
                        described_by<&PathFollowing::yaw_gain>),
