@@ -123,6 +123,50 @@ TEST(ValidateBlocks, FiltersAndLimits) {
                  {[](D& d) { block<Delay>(d).pade = 2.5; }, "controllers.b.pade: out_of_range"}});
 }
 
+TEST(ValidateBlocks, Drivers) {
+  PathFollowing path;
+  path.points = MatX{{0.0, 0.0}, {1.0, 0.0}, {2.0, 1.0}};
+  path.wheelbase = 2.5;
+  expect_errors(
+      with_block(path),
+      {{[](D& d) { block<PathFollowing>(d).points.resize(0, 0); }, "controllers.b: missing"},
+       {[](D& d) {
+          block<PathFollowing>(d).circle = MatX{{0.0, 0.0, 9.0}};
+        },
+        "controllers.b: exclusive"},
+       {[](D& d) {
+          block<PathFollowing>(d).points = MatX{{0.0, 0.0}};
+        },
+        "controllers.b.points: wrong_count"},
+       {[](D& d) { block<PathFollowing>(d).points = MatX::Ones(2, 2); },
+        "controllers.b.points: geometry"},
+       {[](D& d) { block<PathFollowing>(d).points = MatX::Ones(2, 3); },
+        "controllers.b.points: wrong_count"},
+       {[](D& d) { block<PathFollowing>(d).wheelbase = 0.0; },
+        "controllers.b.wheelbase: out_of_range"},
+       {[](D& d) { block<PathFollowing>(d).preview = nan; }, "controllers.b.preview: out_of_range"},
+       {[](D& d) {
+          block<PathFollowing>(d).points.resize(0, 0);
+          block<PathFollowing>(d).circle = MatX{{0.0, 0.0, 0.0}};
+        },
+        "controllers.b.circle: out_of_range"},
+       {[](D& d) {
+          block<PathFollowing>(d).points.resize(0, 0);
+          block<PathFollowing>(d).circle = MatX{{0.0, 0.0, 9.0}};
+          block<PathFollowing>(d).closed = true;
+        },
+        "controllers.b.closed: incomplete"}});
+  SpeedControl speed;
+  speed.mass = 1500.0;
+  speed.lower = -1.0;
+  expect_errors(
+      with_block(speed),
+      {{[](D& d) { block<SpeedControl>(d).mass = 0.0; }, "controllers.b.mass: out_of_range"},
+       {[](D& d) { block<SpeedControl>(d).upper = -2.0; }, "controllers.b.lower: out_of_range"},
+       {[](D& d) { block<SpeedControl>(d).integral = -1.0; },
+        "controllers.b.integral: out_of_range"}});
+}
+
 TEST(ValidateBlocks, Sampled) {
   ZeroOrderHold hold;
   hold.period = 0.01;

@@ -3,10 +3,10 @@
 // path_follower and speed_controller; over any scalar.
 //
 // Path follower. At the foot point of the vehicle's point on the path: the offset e, positive where
-// the path is to the left, and the angle from the course (the direction of the velocity, speed v)
-// to the path, theta; kappa is the curvature of the path at the distance v T - L/2 ahead, L the wheelbase, r the yaw
-// rate: the time T covers the delay of steering and tyres, and a point L/2 before the rear axle
-// turns that distance before its yaw rate does.
+// the path is to the left, and the angle theta from the course (the direction of the velocity,
+// speed v) to the path. kappa is the curvature of the path at the distance v T - L/2 ahead, with
+// the wheelbase L: T covers the delay of steering and tyres, and a point L/2 ahead of the rear axle
+// drives a curve that distance before the vehicle turns. r is the yaw rate.
 //   aim       the course that leads to the path: tan(phi) = omega_e e / v
 //   demand    r_d = v kappa + omega(v) sin(theta + phi)                                         (1)
 //   angle     delta = L r_d / v + k_r (r_d - r) + z                                             (2)
@@ -27,7 +27,7 @@ namespace floatframe {
 struct PathGains {
   double course = 10.0;                                   ///< omega_0 [1/s]
   double offset = 0.5;                                    ///< omega_e [1/s]
-  double preview = 0.15;                                  ///< T [s]
+  double preview = 0.2;                                   ///< T [s]
   double yaw_rate = 0.08;                                 ///< k_r [s]
   double integral = 0.05;                                 ///< T_0 [s]
   double largest_angle = 0.7;                             ///< of delta [rad]
