@@ -1,5 +1,6 @@
 #pragma once
-// The equations of a static equilibrium: balance, constraints, and integrals at rest.
+// The equations of a static equilibrium: balance, constraints, and integrals at rest; of vehicles
+// on free wheels, held along the directions along which they roll.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -109,7 +110,7 @@ class StaticsEquations {
     if (integrates()) f_.element_states().move(change_);
     push += push_change_;
   }
-  /// At q: what moves along the directions X with K X = -s^2 M X, |s^2| below `least_hold`, is not
+  /// At q: what moves along the directions X with K X = s M X, |s| below `least_hold`, is not
   /// looked for. There may be no equilibrium along them, or one far away: a vehicle on free wheels
   /// with toe and camber. The model is held there by P = M X, with unknown pushes, so that
   ///   r + P push = 0,  P^T dx = 0
