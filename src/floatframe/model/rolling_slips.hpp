@@ -42,7 +42,7 @@ struct TyreLengths {
 
 /// A Law is a struct of static members:
 ///   using Keys = ...: the description, a RollingTyre; using Data = ...: what `build` computes
-///   static constexpr bool falls;         the force falls beyond the limit: L grows (rolling_tyre.hpp)
+///   static constexpr bool falls;   the force falls beyond its limit: L grows (rolling_tyre.hpp)
 ///   static constexpr bool slip_of_centre;  slips are those of the wheel centre
 ///   double radius(const Keys&, const Data&)        unloaded [m]
 ///   bool mirrored(const Keys&, const Data&)        its data are of the other side
