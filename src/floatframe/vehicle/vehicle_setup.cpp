@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "floatframe/model/validate_model.hpp"
+#include "floatframe/vehicle/flat_road.hpp"
 #include "floatframe/vehicle/vehicle_parts.hpp"
 
 namespace floatframe {
@@ -33,6 +35,8 @@ void require_roles(const ModelDescription& d, const std::string& manoeuvre,
     errors.add({d.simulation.origin.of("start"), ErrorCode::exclusive,
                 "simulation.start: found a state, expected given or equilibrium for " + manoeuvre,
                 1, "simulation.start"});
+  errors.throw_if_any();
+  validate(d, errors);
   errors.throw_if_any();
 }
 
@@ -77,6 +81,7 @@ Vec3 design_centre(const BodyDescription& body) {
 VehicleSetup vehicle_setup(ModelDescription description, const std::string& manoeuvre,
                            const VehicleNeeds& needs, double speed) {
   require_roles(description, manoeuvre, needs);
+  require_flat_roads(description, manoeuvre, needs.patches);
   VehicleSetup out{.description = std::move(description), .axles = {}};
   ModelDescription& d = out.description;
   const VehicleDescription& v = *d.vehicle;
