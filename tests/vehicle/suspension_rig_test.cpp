@@ -64,11 +64,61 @@ TEST(SuspensionRig, SwingAxleInClosedForm) {
   }
 }
 
+// Knuckles that slide along z on the chassis, and wheels that turn on them about kingpins 0.1 m
+// within and 0.02 m ahead of the wheel centres, held by torsion springs of 1e5 N m/rad.
+const char* const kingpins = R"(
+gravity: [0, 0, 0]
+bodies:
+  chassis: {position: [0, 0, 0.3], rigid: {mass: 500, inertia: [100, 100, 100]}}
+  left_knuckle: {position: [0.02, 0.6, 0.3], rigid: {mass: 10, inertia: [1, 1, 1]}}
+  right_knuckle: {position: [0.02, -0.6, 0.3], rigid: {mass: 10, inertia: [1, 1, 1]}}
+  left: {position: [0, 0.7, 0.3], rigid: {mass: 20, inertia: [1, 1, 1]}}
+  right: {position: [0, -0.7, 0.3], rigid: {mass: 20, inertia: [1, 1, 1]}}
+joints:
+  left_slide: {type: prismatic, parent: chassis, child: left_knuckle, at: [0.02, 0.6, 0.3], axis: z}
+  right_slide: {type: prismatic, parent: chassis, child: right_knuckle, at: [0.02, -0.6, 0.3], axis: z}
+  left_pin: {type: revolute, parent: left_knuckle, child: left, at: [0.02, 0.6, 0.3], axis: z}
+  right_pin: {type: revolute, parent: right_knuckle, child: right, at: [0.02, -0.6, 0.3], axis: z}
+forces:
+  left_spring: {type: joint_spring, joint: left_pin, spring: 1e5}
+  right_spring: {type: joint_spring, joint: right_pin, spring: 1e5}
+  left_tyre: {type: force, body: left, direction: z, magnitude: 100}
+  right_tyre: {type: force, body: right, direction: z, magnitude: 100}
+vehicle:
+  chassis: chassis
+  axles:
+    only: {left: {wheel: left, tyre: left_tyre}, right: {wheel: right, tyre: right_tyre}}
+)";
+
+// The moment of the load about the kingpin over the stiffness, turned by it to first order: half
+// the difference of both senses leaves the third.
+TEST(SuspensionRig, ComplianceOfKingpins) {
+  const auto all = suspension_compliance(description_of(kingpins));
+  ASSERT_EQ(all.size(), 3u);
+  const double stiffness = 1e5;
+  for (const RigCompliance& c : all) {
+    const RigWheel &left = c.axles[0].left, &right = c.axles[0].right;
+    const double moment = c.load == RigLoad::lateral   ? -0.02 * 1000.0
+                          : c.load == RigLoad::braking ? 0.1 * 1000.0
+                                                       : 100.0;
+    const double other = c.load == RigLoad::braking ? -moment : moment;
+    EXPECT_NEAR(left.steer, moment / stiffness, 1e-6 * std::abs(moment) / stiffness + 1e-8);
+    EXPECT_NEAR(right.steer, other / stiffness, 1e-6 * std::abs(moment) / stiffness + 1e-8);
+    EXPECT_NEAR(left.toe, -left.steer, 1e-14);
+    // The centre is at (-0.02, 0.1) from its kingpin.
+    EXPECT_NEAR(left.x, -0.1 * left.steer, 1e-7);
+    EXPECT_NEAR(left.y, -0.02 * left.steer, 1e-7);
+    EXPECT_NEAR(left.camber, 0.0, 1e-9);
+    EXPECT_NEAR(left.height, 0.0, 1e-9);
+  }
+}
+
 TEST(SuspensionRig, FiguresAndWhatIsMissing) {
   ModelDescription d = description_of(swing_axle);
   const RigFigures figures = suspension_figures(d, {.travel = 0.02, .points = 3});
   EXPECT_TRUE(figures.steer.empty());
   EXPECT_TRUE(contains(rig_report("axle", figures).text, "only, parallel travel"));
+  EXPECT_TRUE(contains(rig_report("axle", figures).text, "lateral force, per kN"));
   EXPECT_TRUE(contains(sentences_of([&] { suspension_sweep(d, RigSweep::steer, {}); }),
                        "found no 'steering'"));
   d.vehicle.reset();

@@ -20,15 +20,15 @@ namespace {
 
 struct VehicleArguments {
   ModelArguments model;
-  std::string manoeuvre, rig, travel, speed, radius, angle, torque;
+  std::string manoeuvre, rig, travel, speed, radius, angle, torque, acceleration;
   std::string step, coordinates, inertia, out;
   bool right = false, json = false;
 };
 
-/// "80km/h", "22.2m/s", or a number of m/s.
+/// "80km/h" or "22.2m/s" [m/s].
 double speed_of(const std::string& text) {
   std::string number = text.empty() ? "80km/h" : text;
-  double factor = 1.0;
+  double factor = 0.0;
   for (const auto& [unit, size] : {std::pair{"km/h", 1.0 / 3.6}, std::pair{"m/s", 1.0}})
     if (number.ends_with(unit)) {
       number.resize(number.size() - std::string(unit).size());
@@ -37,13 +37,15 @@ double speed_of(const std::string& text) {
     }
   while (number.ends_with(' ')) number.pop_back();
   try {
-    return factor * option_number("--speed", number, positive_number("m/s"));
+    const double size = option_number("--speed", number, positive_number("m/s"));
+    if (factor > 0.0) return factor * size;
   } catch (const InputError&) {
-    throw InputError(ErrorCode::out_of_range,
-                     "--speed: found '" + text +
-                         "', expected a positive number with km/h or m/s, as 80km/h, or one of "
-                         "m/s without a unit");
+    throw InputError(
+        ErrorCode::out_of_range,
+        "--speed: found '" + text + "', expected a positive number with km/h or m/s, as 80km/h");
   }
+  throw InputError(ErrorCode::wrong_value, "--speed: found '" + text + "', expected a unit: " +
+                                               number + "km/h or " + number + "m/s");
 }
 
 /// An option that the manoeuvre does not read would say something that is not so.
@@ -63,10 +65,13 @@ void require_own_options(const VehicleArguments& a) {
   const auto all = {"steady-circle", "step-steer", "double-lane-change", "straight-stop"};
   only("--radius", !a.radius.empty(), {"steady-circle"});
   only("--angle", !a.angle.empty(), {"step-steer"});
+  only("--lateral-acceleration", !a.acceleration.empty(), {"step-steer"});
+  if (!a.acceleration.empty() && !a.angle.empty())
+    throw InputError(ErrorCode::exclusive,
+                     "--lateral-acceleration: found it with --angle, expected one of both");
   only("--torque", !a.torque.empty(), {"straight-stop"});
   only("--right", a.right, {"steady-circle", "step-steer"});
   only("--speed", rig && !a.speed.empty(), all);
-  only("--out", rig && !a.out.empty(), all);
   if (!rig && !a.travel.empty())
     throw InputError(ErrorCode::exclusive,
                      "--travel: found it with " + what + ", expected it with --rig k-and-c");
@@ -85,7 +90,11 @@ StepSteerOptions step_options(const VehicleArguments& a, double speed) {
   rule.high = 40.0;
   if (!a.angle.empty())
     o.angle = option_number("--angle", a.angle, rule) * std::numbers::pi / 180.0;
+  if (!a.acceleration.empty())
+    o.lateral_acceleration =
+        option_number("--lateral-acceleration", a.acceleration, positive_number("m/s2"));
   if (a.right) o.angle = -o.angle;
+  if (a.right && o.lateral_acceleration) *o.lateral_acceleration *= -1.0;
   return o;
 }
 
@@ -144,8 +153,9 @@ void save_record(VehicleRun& run, const VehicleArguments& a, const ModelFingerpr
 int put_on_rig(const VehicleArguments& a, const ModelDescription& description) {
   RigOptions options;
   if (!a.travel.empty()) options.travel = option_number("--travel", a.travel, positive_number("m"));
-  const ManoeuvreReport report =
-      rig_report(description.name, suspension_figures(description, options));
+  const RigFigures figures = suspension_figures(description, options);
+  const ManoeuvreReport report = rig_report(description.name, figures);
+  if (!a.out.empty()) save_rig(figures, report, a.out);
   print(a.json ? report.json : report.text);
   return exit_code::done;
 }
@@ -162,7 +172,8 @@ int drive_vehicle(const VehicleArguments& a) {
   const VehicleNeeds needs{.steering = true,
                            .drive = true,
                            .brake = a.manoeuvre == "straight-stop",
-                           .width = a.manoeuvre == "double-lane-change"};
+                           .width = a.manoeuvre == "double-lane-change",
+                           .patches = a.manoeuvre == "straight-stop"};
   VehicleRun run(vehicle_setup(std::move(description), a.manoeuvre, needs, start_speed(a, speed)));
   const Nanoseconds before = thread_cpu_clock();
   const ManoeuvreReport report = drive(run, a, speed);
@@ -185,8 +196,10 @@ Command vehicle_command() {
                        {"steady-circle", "step-steer", "double-lane-change", "straight-stop"},
                        "Figures of ISO 4138 (constant radius), ISO 7401, ISO 3888-2 or UN R13-H "
                        "(default step-steer)"),
-           word_option("--rig", a->rig, {"k-and-c"},
-                       "Instead: toe, camber, track and wheel rate over travel, roll and steer"),
+           word_option(
+               "--rig", a->rig, {"k-and-c"},
+               "Instead: toe, camber, track and wheel rate over travel, roll and steer, and "
+               "compliance under forces of the tyres"),
            text_option("--travel", a->travel, "METRES",
                        "Largest travel on the rig, up and down (default 0.06)"),
            text_option(
@@ -196,6 +209,8 @@ Command vehicle_command() {
            text_option("--radius", a->radius, "METRES", "Of the circle (default 100)"),
            text_option("--angle", a->angle, "DEGREES",
                        "Of the step at the road wheels, up to 40 (default 1)"),
+           text_option("--lateral-acceleration", a->acceleration, "M/S2",
+                       "Steady one of the step, in place of --angle"),
            text_option("--torque", a->torque, "NM",
                        "Of all brakes in a straight stop (default: the limit of the brake input)"),
            flag("--right", a->right, "Circle or step to the right instead of to the left"),
@@ -203,7 +218,8 @@ Command vehicle_command() {
            coordinates_option(a->coordinates), inertia_option(a->inertia),
            flag("--json", a->json, "JSON on standard output"),
            text_option("-o,--out", a->out, "FOLDER",
-                       "Also write results.csv, report.html and summary.json there")}),
+                       "Also write results.csv, report.html and summary.json there; on the rig "
+                       "travel.csv, roll.csv, steer.csv and summary.json")}),
       .footer =
           "The model needs the section `vehicle` (docs/vehicle.md) and a flat road. It starts "
           "trimmed:\n"

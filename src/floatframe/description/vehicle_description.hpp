@@ -14,6 +14,7 @@ struct VehicleWheel {
   std::string wheel;  ///< body that carries the tyre
   std::string tyre;   ///< force element
   std::string spin;   ///< joint about which it spins; empty: it does not
+  Origin origin = {};
 };
 
 struct VehicleAxle {

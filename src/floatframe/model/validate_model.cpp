@@ -7,6 +7,7 @@
 namespace floatframe {
 
 void validate(const ModelDescription& d, ErrorList& errors) {
+  const std::size_t before = errors.size();
   const Origin none;
   const validation::Entity model{errors, none, ""};
   if (const auto complaint = sentences::model_name(d.name))
@@ -28,6 +29,7 @@ void validate(const ModelDescription& d, ErrorList& errors) {
   validation::outputs(d, names, errors);
   validation::motions(d, errors);
   validate(d.simulation, errors);
+  if (errors.size() == before) validation::vehicle_roles(d, errors);
 }
 
 }  // namespace floatframe

@@ -20,6 +20,8 @@ void elements(const ModelDescription& d, const Names& names, ErrorList& errors);
 /// Of joints, rods and couplings.
 void motions(const ModelDescription& d, ErrorList& errors);
 void outputs(const ModelDescription& d, const Names& names, ErrorList& errors);
+/// Of a vehicle whose names are known: kinds, bodies, sides and axes of what has a role.
+void vehicle_roles(const ModelDescription& d, ErrorList& errors);
 
 }  // namespace validation
 }  // namespace floatframe

@@ -9,6 +9,7 @@ namespace {
 bool read_wheel(const ModelInstance& self, const YamlValue& value, VehicleWheel& out) {
   auto s = value.section("a map with wheel, tyre and perhaps spin");
   if (!s) return false;
+  out.origin = s->origin();
   const auto wheel = s->require("wheel"), tyre = s->require("tyre");
   bool good = wheel && put(read_moving_body(self, *wheel), out.wheel);
   good = tyre && put(self.reference(EntityKind::force, *tyre), out.tyre) && good;

@@ -4,6 +4,7 @@
 
 #include "floatframe/loops/redundancy.hpp"
 #include "floatframe/math/dense.hpp"
+#include "floatframe/model/element_kind.hpp"
 
 namespace floatframe {
 
@@ -51,6 +52,18 @@ void set_element_states(Formulation& f, State& state, StateStart of) {
   state.z = f.element_states().values();
 }
 
+namespace {
+
+/// Wheels that roll at the start do not rest: what is found of an equilibrium at rest, in which
+/// their tyres hold by their deflections, says nothing of the motion.
+bool rolls_from_start(const Model& model, const VecX& v) {
+  return largest(v) > 0.0 && std::ranges::any_of(model.elements, [](const Element& e) {
+           return e.states > 0 && element_kind(e.type).rolls;
+         });
+}
+
+}  // namespace
+
 State relative_start(RelativeFormulation& f, Start start, StartReport* report) {
   State state;
   f.start(state.q, state.v);
@@ -61,7 +74,7 @@ State relative_start(RelativeFormulation& f, Start start, StartReport* report) {
     const Equilibrium e = find_equilibrium(f, state.q);
     if (report != nullptr)
       for (std::string& note : equilibrium_notes(f, e)) report->notes.push_back(std::move(note));
-    if (report != nullptr)
+    if (report != nullptr && !rolls_from_start(f.model(), state.v))
       if (std::string note = unstable_equilibrium(f, state.q, e.lambda); !note.empty())
         report->notes.push_back(std::move(note));
     close_loops(f, state.q, state.v, false);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -50,12 +51,19 @@ ManoeuvreReport manoeuvre_report(const std::string& model, const StepSteerResult
                        {"peak_time_s", y->peak_time},
                        {"overshoot", y->overshoot}};
   }
+  const bool reached = !r.asked || std::abs(r.lateral_acceleration.steady - *r.asked) <
+                                       step_steer_miss * std::abs(*r.asked);
   std::string text = fmt::format(
       "{}: step steer of {:.4g} deg at the road wheels from {:.2f} km/h (ISO 7401)\n\n{}\n"
       "times from 50 % of the steering at {:.4f} s; TB {:.4g} s deg; speed at the end {:.2f} km/h\n"
       "before the steering: yaw rate below {:.2g} deg/s, speed within {:.2g} m/s\n",
       model, to_deg * r.steering, 3.6 * r.speed, table.text(2), r.t_50, r.tb, 3.6 * r.end_speed,
       to_deg * r.first_second_yaw_rate, r.first_second_drift);
+  if (r.asked)
+    text += fmt::format(
+        "the angle is that of {:.4g} m/s2 of lateral acceleration, {} after {} "
+        "{}\n",
+        *r.asked, reached ? "found" : "not found", r.runs, r.runs == 1 ? "run" : "runs");
   if (r.unsteadiness > 0.01)
     text +=
         fmt::format("the yaw rate still changes by {:.2g} % at the end: steady values are means\n",
@@ -65,6 +73,9 @@ ManoeuvreReport manoeuvre_report(const std::string& model, const StepSteerResult
                                {"speed_m_s", r.speed},
                                {"end_speed_m_s", r.end_speed},
                                {"steering_deg", to_deg * r.steering},
+                               {"asked_lateral_acceleration_m_s2", optional_json(r.asked)},
+                               {"found", reached},
+                               {"runs", r.runs},
                                {"t50_s", r.t_50},
                                {"responses", responses},
                                {"TB_s_deg", r.tb},

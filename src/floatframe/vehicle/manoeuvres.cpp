@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 namespace floatframe {
@@ -40,10 +41,10 @@ struct SteppedHistory {
 
 }  // namespace
 
-StepSteerResult step_steer(VehicleRun& run, const StepSteerOptions& o) {
-  PathFollower follower = straight_on(run);
-  SpeedController controller = speed_controller(run);
-  const TrimmedInputs trim = drive_trimmed(run, follower, controller, o.speed);
+namespace {
+
+/// From the trimmed start on, with the angle of the options.
+StepSteerResult steered(VehicleRun& run, const TrimmedInputs& trim, const StepSteerOptions& o) {
   StepSteerResult out;
   out.speed = run.now().view.speed;
   SteppedHistory h;
@@ -76,6 +77,43 @@ StepSteerResult step_steer(VehicleRun& run, const StepSteerOptions& o) {
   const auto [low, high] = std::minmax_element(h.yaw_rate.begin() + from, h.yaw_rate.end());
   out.unsteadiness = (*high - *low) / std::max(std::abs(out.yaw_rate.steady), 1e-12);
   return out;
+}
+
+/// The angle of the next run: the secant through the last two, within limits of a road wheel.
+double next_angle(double asked, const StepSteerResult& last, const StepSteerResult& before) {
+  constexpr double most = 40.0 * std::numbers::pi / 180.0;
+  const double gain = (last.lateral_acceleration.steady - before.lateral_acceleration.steady) /
+                      (last.steering - before.steering);
+  const double sign = asked < 0.0 ? -1.0 : 1.0;
+  if (!(gain > 0.0)) return sign * std::min(most, 1.5 * std::abs(last.steering));
+  const double angle = last.steering + (asked - last.lateral_acceleration.steady) / gain;
+  return sign * std::clamp(sign * angle, 0.1 * std::abs(last.steering), most);
+}
+
+}  // namespace
+
+StepSteerResult step_steer(VehicleRun& run, const StepSteerOptions& o) {
+  constexpr int most_runs = 3;
+  PathFollower follower = straight_on(run);
+  SpeedController controller = speed_controller(run);
+  const TrimmedInputs trim = drive_trimmed(run, follower, controller, o.speed);
+  if (!o.lateral_acceleration) return steered(run, trim, o);
+  const double asked = *o.lateral_acceleration;
+  const SimulationState start = run.save();
+  StepSteerOptions at = o;
+  at.angle = asked * run.axles().wheelbase() / (o.speed * o.speed);
+  StepSteerResult before, out;
+  for (int k = 1;; ++k) {
+    out = steered(run, trim, at);
+    out.asked = asked;
+    out.runs = k;
+    const double miss = out.lateral_acceleration.steady - asked;
+    if (k == most_runs || std::abs(miss) < step_steer_miss * std::abs(asked)) return out;
+    at.angle = next_angle(asked, out, before);
+    before = out;
+    run.restore(start);
+    run.begin_record();
+  }
 }
 
 namespace {

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "floatframe/loops/run_error.hpp"
+#include "floatframe/model/validate_model.hpp"
 #include "floatframe/stepping/stepping.hpp"
 #include "floatframe/vehicle/circle_figures.hpp"
 #include "floatframe/vehicle/vehicle_parts.hpp"
@@ -106,7 +107,29 @@ void measure_wheel(ModelDescription& d, const RiggedWheel& w) {
 struct RiggedPoint {
   std::vector<double> travel;  ///< of each wheel [m]
   std::optional<double> input;
+  std::optional<RigLoad> load;
+  double sense = 1.0;  ///< of the load
 };
+
+/// At the contact point of the design configuration, on the wheel.
+void load_wheel(ModelDescription& d, const RiggedWheel& w, RigLoad load, double sense) {
+  const Vec3 centre = design_centre(vehicle_body(d, w.wheel->wheel));
+  AppliedLoad push;
+  push.at = rig_place(w.wheel->wheel, {centre.x(), centre.y(), 0.0});
+  push.direction = load == RigLoad::lateral   ? Vec3(Vec3::UnitY())
+                   : load == RigLoad::braking ? Vec3(-Vec3::UnitX())
+                                              : Vec3(Vec3::UnitZ());
+  const double size = load == RigLoad::aligning ? 100.0 : 1000.0;
+  push.magnitude =
+      SignalDescription(TimeFunction{.pieces = PiecewisePolynomial::polynomial({sense * size})});
+  ElementDescription element;
+  element.name = "vehicle.rig." + w.name + ".load";
+  if (load == RigLoad::aligning)
+    element.kind = AppliedTorque{push};
+  else
+    element.kind = AppliedForce{push};
+  d.forces.push_back(std::move(element));
+}
 
 ModelDescription rigged(const ModelDescription& description, const RiggedPoint& point) {
   ModelDescription d = description;
@@ -121,6 +144,7 @@ ModelDescription rigged(const ModelDescription& description, const RiggedPoint& 
   for (std::size_t k = 0; k < wheels.size(); ++k) {
     hold_wheel(d, wheels[k], point.travel[k]);
     measure_wheel(d, wheels[k]);
+    if (point.load) load_wheel(d, wheels[k], *point.load, point.sense);
   }
   if (point.input)
     std::ranges::find(d.inputs, d.vehicle->steering->input, &InputDescription::name)->initial =
@@ -146,19 +170,27 @@ RigWheel wheel_of(const double* y, bool left, const Vec3& centre, Vec3& lowest) 
   return out;
 }
 
+const char* load_word(RigLoad load) {
+  return load == RigLoad::lateral   ? "a lateral force"
+         : load == RigLoad::braking ? "a brake force"
+                                    : "an aligning moment";
+}
+
 /// Throws RunError with the travel and the cause.
 std::unique_ptr<Simulation> start_on_rig(const ModelDescription& description,
                                          const RiggedPoint& point) {
   try {
     return std::make_unique<Simulation>(build_model(rigged(description, point)));
   } catch (const RunError& e) {
-    throw RunError(e.code(),
-                   fmt::format("the suspension has no equilibrium on the rig at a travel of {:.5g} "
-                               "mm on the left, {:.5g} mm on the right{}: {}",
-                               1e3 * point.travel[0], 1e3 * point.travel[1],
-                               point.input ? fmt::format(" and {:.5g} as steering", *point.input)
-                                           : std::string(),
-                               e.what()));
+    throw RunError(
+        e.code(),
+        fmt::format(
+            "the suspension has no equilibrium on the rig at a travel of {:.5g} "
+            "mm on the left, {:.5g} mm on the right{}{}: {}",
+            1e3 * point.travel[0], 1e3 * point.travel[1],
+            point.input ? fmt::format(" and {:.5g} as steering", *point.input) : std::string(),
+            point.load ? fmt::format(" under {}", load_word(*point.load)) : std::string(),
+            e.what()));
   }
 }
 
@@ -221,11 +253,15 @@ void require_suspension(const ModelDescription& d) {
                               "' welded to the chassis, expected one on a suspension for k-and-c");
 }
 
-void require_vehicle(const ModelDescription& d) {
+void require_rig_vehicle(const ModelDescription& d) {
   if (!d.vehicle)
     throw InputError(ErrorCode::missing, SourceMark{.file = d.simulation.origin.mark.file},
                      "k-and-c: found no section 'vehicle', expected one with the roles of bodies, "
                      "tyres and inputs");
+  ErrorList errors;
+  validate(d, errors);
+  errors.throw_if_any();
+  require_suspension(d);
 }
 
 }  // namespace
@@ -244,8 +280,7 @@ bool stands_still(const std::vector<RigPoint>& points, std::size_t axle) {
 
 std::vector<RigPoint> suspension_sweep(const ModelDescription& description, RigSweep sweep,
                                        const RigOptions& options) {
-  require_vehicle(description);
-  require_suspension(description);
+  require_rig_vehicle(description);
   const VehicleDescription& v = *description.vehicle;
   if (sweep == RigSweep::steer && !v.steering)
     throw InputError(ErrorCode::missing, v.origin.mark,
@@ -266,13 +301,52 @@ std::vector<RigPoint> suspension_sweep(const ModelDescription& description, RigS
   return out;
 }
 
+namespace {
+
+RigWheel half_difference(const RigWheel& a, const RigWheel& b) {
+  RigWheel out;
+  for (double RigWheel::*value : {&RigWheel::height, &RigWheel::x, &RigWheel::y, &RigWheel::steer,
+                                  &RigWheel::toe, &RigWheel::camber, &RigWheel::force})
+    out.*value = 0.5 * (a.*value - b.*value);
+  return out;
+}
+
+}  // namespace
+
+std::vector<RigCompliance> suspension_compliance(const ModelDescription& description) {
+  require_rig_vehicle(description);
+  std::vector<RigCompliance> out;
+  for (const RigLoad load : {RigLoad::lateral, RigLoad::braking, RigLoad::aligning}) {
+    RiggedPoint point;
+    point.travel.assign(2 * description.vehicle->axles.size(), 0.0);
+    point.load = load;
+    const RigPoint there = measured_point(description, point);
+    point.sense = -1.0;
+    const RigPoint back = measured_point(description, point);
+    RigCompliance change{.load = load, .axles = {}};
+    for (std::size_t k = 0; k < there.axles.size(); ++k) {
+      const RigAxle &a = there.axles[k], &b = back.axles[k];
+      change.axles.push_back({.left = half_difference(a.left, b.left),
+                              .right = half_difference(a.right, b.right),
+                              .track = 0.5 * (a.track - b.track)});
+    }
+    out.push_back(std::move(change));
+  }
+  return out;
+}
+
 RigFigures suspension_figures(const ModelDescription& description, const RigOptions& options) {
   RigFigures out;
   out.travel = suspension_sweep(description, RigSweep::travel, options);
   out.roll = suspension_sweep(description, RigSweep::roll, options);
   if (description.vehicle->steering)
     out.steer = suspension_sweep(description, RigSweep::steer, options);
+  out.compliance = suspension_compliance(description);
   for (const VehicleAxle& a : description.vehicle->axles) out.axles.push_back(a.name);
+  if (description.vehicle->steering)
+    out.input_unit = std::ranges::find(description.inputs, description.vehicle->steering->input,
+                                       &InputDescription::name)
+                         ->unit;
   return out;
 }
 

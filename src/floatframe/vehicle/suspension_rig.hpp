@@ -12,6 +12,9 @@
 //   e      = c - h (z - n_z n)/|z - n_z n|       lowest point of a wheel of the radius h [m]
 //   track  = e_y left - e_y right                [m]
 //   wheel rate = dF_z/dz                  slope of the force that holds the centre [N/m]
+// Compliance: the centres stay at their height of the design configuration, all wheels are loaded
+// alike, at the contact points c - h z, and what changes is half the difference of both senses of
+// the load.
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -59,9 +62,25 @@ bool stands_still(const std::vector<RigPoint>& points, std::size_t axle);
 std::vector<RigPoint> suspension_sweep(const ModelDescription& description, RigSweep sweep,
                                        const RigOptions& options);
 
+/// Loads of all wheels at their contact points: 1 kN to the left, 1 kN backwards with the wheels
+/// held by their brakes on the carriers, 100 N m about z.
+enum class RigLoad { lateral, braking, aligning };
+inline constexpr const char* rig_load_words[] = {"lateral_force", "brake_force", "aligning_moment"};
+
+/// x, y, steer, toe, camber and track of the axles are the changes by the load [m], [rad].
+struct RigCompliance {
+  RigLoad load = RigLoad::lateral;
+  std::vector<RigAxle> axles;
+};
+
+/// One of each load. Throws as `suspension_sweep`.
+std::vector<RigCompliance> suspension_compliance(const ModelDescription& description);
+
 struct RigFigures {
   std::vector<std::string> axles;             ///< names
   std::vector<RigPoint> travel, roll, steer;  ///< steer is empty without a steering input
+  std::vector<RigCompliance> compliance;
+  std::string input_unit;  ///< of the steering input
 };
 
 RigFigures suspension_figures(const ModelDescription& description, const RigOptions& options);

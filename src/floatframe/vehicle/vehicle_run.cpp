@@ -97,6 +97,7 @@ void VehicleRun::begin_record() {
   now_.time = 0.0;
   recording_ = true;
   steps_ = 0;
+  table.data.clear();
   record();
 }
 
@@ -118,6 +119,20 @@ namespace {
                   run.now().view.speed, speed, run.vehicle().brake ? " and brakes" : "", force));
 }
 
+/// Neither more time nor the controllers bring back a vehicle that has turned round, stands or runs
+/// away.
+void require_on_its_way(const VehicleRun& run, double yaw, double speed) {
+  const DriverView& v = run.now().view;
+  const double turned = std::abs(v.yaw - yaw);
+  if (turned < 0.5 && v.speed > 0.05 * speed && v.speed < 4.0 * speed) return;
+  throw RunError(
+      ErrorCode::not_steady,
+      fmt::format("the vehicle cannot be driven straight on at {:g} m/s: after {:.3g} s it drives "
+                  "{:.4g} m/s, {:.3g} deg off its heading, with a yaw rate of {:.3g} deg/s",
+                  speed, run.now().time, v.speed, turned * 180.0 / std::numbers::pi,
+                  v.yaw_rate * 180.0 / std::numbers::pi));
+}
+
 }  // namespace
 
 TrimmedInputs drive_trimmed(VehicleRun& run, PathFollower& follower, SpeedController& controller,
@@ -127,11 +142,13 @@ TrimmedInputs drive_trimmed(VehicleRun& run, PathFollower& follower, SpeedContro
   require_inputs_that_act(run);
   const double dt = run.step_size();
   double since = 0.0, low = 0.0, high = 0.0, rate = 0.0, limited = 0.0;
+  const double heading = run.now().view.yaw;
   TrimmedInputs out;
   for (double t = 0.0; t < longest; t += dt) {
     out = {.steering = follower.steer(run.now().view, dt),
            .force = controller.force(speed, run.now().view.speed, dt)};
     run.step(out.steering, out.force);
+    require_on_its_way(run, heading, speed);
     const DriverView& v = run.now().view;
     rate = std::abs(v.yaw_rate);
     low = std::min(low, v.speed);

@@ -54,7 +54,8 @@ class VehicleRun {
   /// The state, and the return to one. Inputs of the steps in between leave no trace.
   SimulationState save() const { return simulation_.save(); }
   void restore(const SimulationState& state);
-  /// Time, position and heading count from here, and rows are recorded from here on.
+  /// Time, position and heading count from here, and rows are recorded from here on;
+  /// those of before are forgotten.
   void begin_record();
   /// Time, the outputs of the model, the values of the inputs as "inputs.NAME".
   ResultTable table;
@@ -79,7 +80,9 @@ class VehicleRun {
 /// Starts trimmed: drives straight on under both controllers until, for one second, the yaw rate
 /// stays below 5e-5 deg/s and the speed within 5e-5 m/s, at most 1e-3 m/s from the one asked for.
 /// Then the record begins. Throws InputError if an input does not act (input_probe.hpp), RunError
-/// after 120 s, or earlier where the force is at its limit and the speed another one.
+/// after 120 s, or earlier where the force is at its limit and the speed another one, and at once
+/// where the vehicle is 0.5 rad off its heading, or slower than 0.05 or faster than 4 times the
+/// speed asked for.
 struct TrimmedInputs {
   double steering = 0.0;  ///< road-wheel angle that drives straight [rad]
   double force = 0.0;     ///< against the resistance [N]

@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "floatframe/model/validate_model.hpp"
+#include "floatframe/vehicle/flat_road.hpp"
 #include "floatframe/vehicle/vehicle_parts.hpp"
 
 namespace floatframe {
@@ -53,6 +55,8 @@ void require_roles(const ModelDescription& d, const std::string& manoeuvre,
                 "simulation.start: found a state, expected given or equilibrium for " + manoeuvre,
                 1, "simulation.start"});
   errors.throw_if_any();
+  validate(d, errors);
+  errors.throw_if_any();
 }
 
 void add_measured(ModelDescription& d, const Vec3& driver) {
@@ -96,6 +100,7 @@ Vec3 design_centre(const BodyDescription& body) {
 VehicleSetup vehicle_setup(ModelDescription description, const std::string& manoeuvre,
                            const VehicleNeeds& needs, double speed) {
   require_roles(description, manoeuvre, needs);
+  require_flat_roads(description, manoeuvre, needs.patches);
   VehicleSetup out{.description = std::move(description), .axles = {}};
   ModelDescription& d = out.description;
   const VehicleDescription& v = *d.vehicle;

@@ -33,6 +33,7 @@ inline constexpr const char* measured_names[] = {
 /// What a manoeuvre needs of the section `vehicle`.
 struct VehicleNeeds {
   bool steering = false, drive = false, brake = false, width = false;
+  bool patches = false;  ///< may do with a road whose friction differs from place to place
 };
 
 struct VehicleSetup {
@@ -44,7 +45,8 @@ struct VehicleSetup {
 };
 
 /// Throws InputError with a sentence for each thing that the manoeuvre lacks: the section, or a key
-/// of it, two axles, a start that is given as a state. `speed` of the start [m/s].
+/// of it, two axles, a flat road, and for a start that is given as a state. `speed` of the start
+/// [m/s].
 VehicleSetup vehicle_setup(ModelDescription description, const std::string& manoeuvre,
                            const VehicleNeeds& needs, double speed);
 
