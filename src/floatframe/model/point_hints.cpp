@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/hint_list.hpp"
 #include "floatframe/model/joint_kind.hpp"
+#include "floatframe/model/joint_motion.hpp"
 
 namespace floatframe {
 namespace {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "floatframe/model/joint_kind.hpp"
+#include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/rolling_tyre_kind.hpp"
 #include "floatframe/model/system_motion.hpp"
 
@@ -13,12 +15,11 @@ namespace {
 
 /// The wheel at the start, in the plane of the road below it.
 struct WheelAtStart {
-  double height;        ///< of the centre above the road below it [m]
-  double speed;         ///< of the centre, forwards for a positive spin [m/s]
-  double spin;          ///< about the axis of the tyre [rad/s]
-  double radius;        ///< effective [m]
-  Vec3 axis;            ///< of the wheel, world axes
-  bool upright = true;  ///< its axis is far enough from the normal of the road
+  double height = 0.0;        ///< of the centre above the road below it [m]
+  double speed = 0.0;         ///< of the centre, forwards for a positive spin [m/s]
+  double spin = 0.0;          ///< about the axis of the tyre [rad/s]
+  double radius = 0.0;        ///< effective [m]
+  Vec3 axis = Vec3::UnitY();  ///< of the wheel, world axes
 };
 
 WheelAtStart wheel_at_start(const Element& element, const RollingTyre& keys, double radius,
@@ -29,19 +30,16 @@ WheelAtStart wheel_at_start(const Element& element, const RollingTyre& keys, dou
   const Vec3 centre = start.place(marker);
   const SurfacePoint below = surface_at(start.model.roads[element.road], centre.x(), centre.y());
   const Vec3 normal = Vec3(-below.zx, -below.zy, 1.0).normalized();
-  WheelAtStart w{.height = centre.z() - below.z,
-                 .speed = 0.0,
-                 .spin = 0.0,
-                 .radius = radius,
-                 .axis = m.R * keys.axis};
+  WheelAtStart w;
+  w.axis = m.R * keys.axis;
   const Vec3 forwards = w.axis.cross(normal);
-  w.upright = forwards.norm() >= upright;
-  w.speed = w.upright ? m.v.dot(forwards.normalized()) : 0.0;
+  if (forwards.norm() >= upright) w.speed = m.v.dot(forwards.normalized());
   w.spin = m.w.dot(w.axis);
+  // In the air the results of the tyre are zero. Its length is the height above a plate, too.
   const Efforts& efforts = start.effort(&element - start.model.elements.data());
-  if (efforts.length > 0.0) w.height = efforts.length;  // above a plate that lifts it
-  if (const double effective = efforts.further[rolling::effective_radius]; effective > 0.0)
-    w.radius = effective;
+  const double effective = efforts.further[rolling::effective_radius];
+  w.radius = effective > 0.0 ? effective : radius;
+  w.height = efforts.length > 0.0 ? efforts.length : centre.z() - below.z;
   return w;
 }
 
@@ -60,6 +58,7 @@ std::string odd_height(double height, double radius, bool equilibrium) {
   constexpr double play = 5e-3;  // [m]
   constexpr double reach = 0.2;  // of a search for an equilibrium, relative to the radius
   const double gap = height - radius;
+  if (std::isnan(gap)) return {};  // beyond the road
   if (gap >= -deep * radius && gap <= (equilibrium ? reach * radius : play)) return {};
   return fmt::format(
       "its wheel centre is {:.4g} m above the road and its radius is {:.4g} m, so that at the "
@@ -67,6 +66,10 @@ std::string odd_height(double height, double radius, bool equilibrium) {
       height, radius,
       gap > 0.0 ? fmt::format("the wheel hangs {:.4g} m in the air", gap)
                 : fmt::format("the road presses {:.4g} m into it", -gap));
+}
+
+bool turns_alone(JointType type) {
+  return joint_kind(type).coordinates.count() == 1 && joint_unit(type, 0) == JointUnit::rad;
 }
 
 /// The joint of one angle about the axis of the wheel, on which its body turns; its sense.
@@ -79,7 +82,7 @@ SpinJoint spin_joint(const Element& element, const Vec3& axis, const SystemMotio
   constexpr double parallel = 0.9;
   const int body = start.model.markers[element.markers[0]].body;
   for (const Joint& j : start.model.joints) {
-    if (j.type != JointType::revolute || (j.child != body && j.parent != body)) continue;
+    if (!turns_alone(j.type) || (j.child != body && j.parent != body)) continue;
     const MarkerState &F = start.marker(j.frame_F), &M = start.marker(j.frame_M);
     const double along = F.R.col(2).dot(axis);
     if (std::abs(along) < parallel) continue;
@@ -92,7 +95,7 @@ SpinJoint spin_joint(const Element& element, const Vec3& axis, const SystemMotio
 std::string odd_spin(const Element& element, const WheelAtStart& w, const SystemMotion& start) {
   constexpr double least_speed = 1.0;  // [m/s]
   constexpr double most_slip = 0.5;
-  if (!w.upright || std::abs(w.speed) < least_speed) return {};
+  if (std::abs(w.speed) < least_speed) return {};
   const double slip = 1.0 - w.spin * w.radius / w.speed;
   if (std::abs(slip) <= most_slip) return {};
   const SpinJoint by = spin_joint(element, w.axis, start);
