@@ -33,8 +33,40 @@ RIGHT = [
     *[(RANGE / f"{name}.yaml", []) for name in (
         "cantilever", "driven_arm", "massless", "pendulum", "springs", "spinning_beam", "tyre", "set_point_step", "free_top")],
     (GOOD / "inputs.yaml", []),
+    (HINTS / "rolling_tyre.yaml", []),
 ]
-HINT = re.compile(r"unusual|angles are in radians|no inertia|is clamped at|wheel centre|unstable")
+HINTS = ROOT / "tests" / "data" / "hints"
+EXAMPLES, RANGE, GOOD = ROOT / "examples", ROOT / "tests" / "data" / "range", ROOT / "tests" / "data" / "good_models"
+
+# Models that are right, with parameters; those of a model file and its options each count once.
+RIGHT = [
+    *[(EXAMPLES / "iltis" / "iltis.yaml", options) for options in (
+        [], ["flexible=false"], ["road=bump"], ["road=flat"], ["tyre_law=radial"], ["mass_model=hermite"], ["mass_model=six_dof"],
+        ["start=given"], ["flexible=false", "road=bump", "speed=10"], ["compensated=false"])],
+    *[(EXAMPLES / "active_damper" / "active_damper.yaml", options) for options in ([], ["flexible=false"])],
+    *[(EXAMPLES / "iltis_solid" / "iltis_solid.yaml", options) for options in ([], ["flexible_arm=false"], ["flexible=false"])],
+    *[(EXAMPLES / "flexible_pendulum" / "flexible_pendulum.yaml", options) for options in (
+        [], ["mass_model=hermite"], ["mass_model=six_dof"])],
+    *[(EXAMPLES / "slider_crank" / "slider_crank.yaml", options) for options in (
+        [], ["mass_model=hermite"], ["mass_model=six_dof"], ["angle=3"])],
+    *[(EXAMPLES / "spin_up" / "spin_up.yaml", options) for options in ([], ["stiffening=false"], ["ne=8"])],
+    *[(EXAMPLES / "rotor" / "rotor.yaml", options) for options in (
+        [], ["speed=500"], ["section_inertia=false"], ["stiffening=false"])],
+    (EXAMPLES / "rotor" / "lalanne_ferraris.yaml", []),
+    *[(EXAMPLES / "quarter_car" / "quarter_car.yaml", options) for options in ([], ["class=A"], ["tyre_stiffness=1e5"])],
+    *[(RANGE / f"{name}.yaml", []) for name in (
+        "cantilever", "driven_arm", "massless", "pendulum", "springs", "spinning_beam", "tyre", "set_point_step", "free_top")],
+    (GOOD / "inputs.yaml", []),
+    (HINTS / "rolling_tyre.yaml", []),
+    *[(EXAMPLES / "iltis" / "handling.yaml", options) for options in ([], ["tyre_law=calspan"], ["road=rough"], ["speed=5"])],
+    *[(EXAMPLES / "small_car" / "small_car.yaml", options) for options in ([], ["tyre=tmeasy"], ["tyre=mf"], ["road=rough"])],
+]
+HINT = re.compile(r"unusual|angles are in radians|no inertia|is clamped at|wheel centre|unstable|slips by|in mm")
+CARS = [
+    *[(EXAMPLES / "iltis" / "handling.yaml", options) for options in ([], ["tyre_law=calspan"], ["road=rough"], ["speed=5"])],
+    *[(EXAMPLES / "small_car" / "small_car.yaml", options) for options in ([], ["tyre=tmeasy"], ["tyre=mf"], ["road=rough"])],
+]
+
 
 
 def program(*arguments):
@@ -83,6 +115,28 @@ class Hints(unittest.TestCase):
             _, notes, _, _ = check(HINTS / "tyre_radius.yaml", f"radius={radius}", f"height={height}")
             self.assertEqual(len([n for n in notes if "wheel centre" in n]), said, (radius, height, notes))
         self.assertIn("the wheel hangs 1.2 m in the air", check(HINTS / "tyre_radius.yaml", "radius=0.3", "height=1.5")[1][0])
+
+    def test_a_wheel_that_rolls(self):
+        for options, sentence in (
+                (["spin=-68"], "at the start its wheel turns backwards: the contact slips by 1"),
+                (["axis=-1"], "joint 'spin' turns at 68 rad/s, and it would roll with a velocity of -6"),
+                (["spin=0"], "at the start its wheel does not turn: the contact slips by 100 % of the speed of 20 m/s; joint 'spin' "
+                             "turns at 0 rad/s, and it would roll with a velocity of 6"),
+                (["height=0.306"], "the wheel hangs 0.006 m in the air"),
+                (["height=0.23"], "the road presses 0.07 m into it"),
+                (["height=0.37", "start=equilibrium"], "the wheel hangs 0.07 m in the air"),
+                (["radius=300"], "its radius of 300 m is unusual; it may be in mm"),
+                (["radius=3e-4"], "its radius of 0.0003 m is unusual; it may be in m and was taken for mm"),
+                (["scale=1000"], "body 'carrier': points at which it is held are up to 499.8 m apart, and a wheel has a radius of 0.3 m"),
+        ):
+            with self.subTest(options=options):
+                code, notes, out, errors = check(HINTS / "rolling_tyre.yaml", *options)
+                self.assertEqual(code, 0, out + errors)
+                self.assertEqual(len([n for n in notes if sentence in n]), 1, notes)
+        for model, options in CARS:
+            self.assertEqual([n for n in check(model, *options)[1] if re.search("wheel|in mm", n)], [], (model.name, options))
+        for options in (["spin=0", "speed=0"], ["height=0.306", "start=equilibrium"], ["spin=90"], ["axis=-1", "spin=-68"]):
+            self.assertEqual([n for n in check(HINTS / "rolling_tyre.yaml", *options)[1] if HINT.search(n)], [], options)
 
     def test_inertia_that_is_missing(self):
         code, _, out, errors = check(HINTS / "no_inertia.yaml")

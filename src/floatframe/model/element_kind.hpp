@@ -126,8 +126,8 @@ struct ElementKind {
   void (*reverse)(ElementDescription& element) = nullptr;
   /// States and kept numbers of an element with these keys; null: none.
   void (*states)(Element& element) = nullptr;
-  /// The names of its values, if there are several (`value_names`).
-  std::vector<std::string> (*values)(const ElementKeys& keys) = nullptr;
+  /// Its values with their units, if there are several.
+  std::vector<ElementValue> (*values)(const ElementKeys& keys) = nullptr;
   /// Their values at a start that gives none: those of the element at rest in this motion. Null:
   /// zero.
   void (*start)(const Ports& in, double* states) noexcept = nullptr;

@@ -84,9 +84,18 @@ const char* element_output_unit(const Element& element, ElementQuantity quantity
   return of[index_of(quantity)];
 }
 
-std::vector<std::string> value_names(const ElementKeys& keys) {
+std::vector<ElementValue> values_of_element(const ElementKeys& keys) {
   const auto values = element_list[keys.index()]->values;
-  return values ? values(keys) : std::vector<std::string>();
+  return values ? values(keys) : std::vector<ElementValue>();
+}
+const char* value_unit(const Element& element, int value) {
+  if (value == 0) return element_output_unit(element, ElementQuantity::force);
+  return values_of_element(*element.keys)[value].unit;
+}
+std::vector<std::string> value_names(const ElementKeys& keys) {
+  std::vector<std::string> names;
+  for (ElementValue& value : values_of_element(keys)) names.push_back(std::move(value.name));
+  return names;
 }
 int value_index(const std::vector<std::string>& names, const std::string& word) noexcept {
   const auto named = std::find(names.begin(), names.end(), word);

@@ -36,6 +36,15 @@ std::vector<ElementSignal> signals_of(const Element& element);
 /// What a source of a signal is of its element.
 ElementQuantity quantity_of(SignalSource source) noexcept;
 
+/// A value of an element that has several.
+struct ElementValue {
+  std::string name;
+  const char* unit;  ///< of SI, as in the headers of columns; "-": it has none
+};
+/// The values of an element that has several, else empty; the first one is its force.
+std::vector<ElementValue> values_of_element(const ElementKeys& keys);
+/// The unit of one of its values, counted from 0.
+const char* value_unit(const Element& element, int value);
 /// The names of the values of an element that has several, "1", "2", ... without names.
 std::vector<std::string> value_names(const ElementKeys& keys);
 /// The place of a name or number from 1 among them, 0 for an empty one; -1: there is none.

@@ -29,6 +29,8 @@ void hint_at_units(const ModelDescription& description, HintList& out);
 void hint_at_formulas(const Model& model, bool located, HintList& out);
 /// Paths along bodies of bars that sag less below a load than their bars do.
 void hint_at_paths(const ModelDescription& description, const Model& model, HintList& out);
+/// Points of a rigid body of a vehicle so far apart that they may be in mm.
+void hint_at_points(const Model& model, HintList& out);
 /// What of an OpenCRG file has no effect.
 void hint_at_roads(const Model& model, HintList& out);
 /// Cams whose lift has corners or nearly fills a turn, curves with corners, that cross themselves

@@ -273,6 +273,7 @@ ModelHints model_hints(const ModelDescription& description, const Model& model) 
   hint_at_formulas(model, description.simulation.locate_edges, hints);
   hint_at_paths(description, model, hints);
   hint_at_curves(model, hints);
+  hint_at_points(model, hints);
   hint_at_roads(model, hints);
   return {hints.texts(), {}, bar_bending(description, model)};
 }

@@ -84,28 +84,6 @@ Picture picture_of_rolling_tyre(const Element& element, const RollingTyre& keys,
           .width = 0.4 * radius};
 }
 
-void note_rolling_tyre(const Element& element, const RollingTyre& keys, double radius,
-                       const SystemMotion& start, std::vector<std::string>& notes) {
-  constexpr double high = 3.0, low = 0.6;  // relative to the radius
-  constexpr double upright = 0.5;          // the sine of the least angle of axis and vertical
-  const int marker = element.markers[0];
-  const Vec3 centre = start.place(marker);
-  const Road& road = start.model.roads[element.road];
-  const double height = centre.z() - surface_at(road, centre.x(), centre.y()).z;
-  if (height <= low * radius || height >= high * radius)
-    notes.push_back(fmt::format(
-        "tyre '{}': its wheel centre is {:.4g} m above the road and its "
-        "radius is {:.4g} m, so that at the start {}",
-        element.name, height, radius,
-        height > radius ? "the wheel hangs in the air" : "the road presses deep into it"));
-  const Vec3 axis = start.marker(marker).R * keys.axis;
-  if (axis.head<2>().norm() < upright)
-    notes.push_back(fmt::format(
-        "tyre '{}': its wheel lies: the axis is {:.3g} deg from the "
-        "vertical",
-        element.name, std::asin(std::min(1.0, axis.head<2>().norm())) * 180.0 / std::numbers::pi));
-}
-
 double angle_of_wheel(const Ports& in, const RollingTyre& keys,
                       const RollingContact<double>& c) noexcept {
   Vec3 first, second;

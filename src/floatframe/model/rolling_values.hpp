@@ -1,9 +1,8 @@
 #pragma once
 // The values of tyres that roll.
-#include <string>
 #include <vector>
 
-#include "floatframe/description/elements.hpp"
+#include "floatframe/model/element_outputs.hpp"
 
 namespace floatframe {
 
@@ -27,11 +26,23 @@ enum Value : std::size_t {
   friction_use
 };
 }  // namespace rolling
-inline std::vector<std::string> rolling_values(const ElementKeys&) {
-  return {"load",           "longitudinal_force", "lateral_force",     "overturning_moment",
-          "rolling_moment", "aligning_moment",    "longitudinal_slip", "slip_angle",
-          "camber",         "deflection",         "loaded_radius",     "effective_radius",
-          "contact_x",      "contact_y",          "contact_z",         "friction_use"};
+inline std::vector<ElementValue> rolling_values(const ElementKeys&) {
+  return {{"load", "N"},
+          {"longitudinal_force", "N"},
+          {"lateral_force", "N"},
+          {"overturning_moment", "N m"},
+          {"rolling_moment", "N m"},
+          {"aligning_moment", "N m"},
+          {"longitudinal_slip", "-"},
+          {"slip_angle", "rad"},
+          {"camber", "rad"},
+          {"deflection", "m"},
+          {"loaded_radius", "m"},
+          {"effective_radius", "m"},
+          {"contact_x", "m"},
+          {"contact_y", "m"},
+          {"contact_z", "m"},
+          {"friction_use", "-"}};
 }
 
 }  // namespace floatframe

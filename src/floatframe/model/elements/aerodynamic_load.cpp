@@ -156,7 +156,7 @@ constinit const ElementKind aerodynamic_load_element = {
     .build = build_aerodynamic_load,
     .values =
         [](const ElementKeys&) {
-          return std::vector<std::string>{"drag", "side_force", "lift"};
+          return std::vector<ElementValue>{{"drag", "N"}, {"side_force", "N"}, {"lift", "N"}};
         },
     .dual = aerodynamic_load_law<Dual>,
     .picture = picture_of_aerodynamic_load,

@@ -292,8 +292,8 @@ constinit const ElementKind journal_bearing_element = {
           element.states = std::get<JournalBearing>(*element.keys).friction ? 1 : 0;
           element.kept = 1;
         },
-    .values = [](const ElementKeys&) -> std::vector<std::string> {
-      return {"force", "friction_torque"};
+    .values = [](const ElementKeys&) -> std::vector<ElementValue> {
+      return {{"force", "N"}, {"friction_torque", "N m"}};
     },
     .start = journal_bearing_start,
     .left_out_at_rest = "friction",

@@ -81,12 +81,13 @@ void state_space_validate(const ElementCheck& check) {
   if (!column(keys.D, p)) expect("D", p, m);
 }
 
-std::vector<std::string> state_space_values(const ElementKeys& all) {
+std::vector<ElementValue> state_space_values(const ElementKeys& all) {
   const auto& keys = std::get<StateSpaceBlock>(all);
-  if (!keys.outputs.empty() || keys.C.rows() < 2) return keys.outputs;
-  std::vector<std::string> numbers;
-  for (Eigen::Index k = 1; k <= keys.C.rows(); ++k) numbers.push_back(std::to_string(k));
-  return numbers;
+  std::vector<ElementValue> values;
+  for (const std::string& name : keys.outputs) values.push_back({name, "-"});
+  if (!values.empty() || keys.C.rows() < 2) return values;
+  for (Eigen::Index k = 1; k <= keys.C.rows(); ++k) values.push_back({std::to_string(k), "-"});
+  return values;
 }
 
 void state_space_states(Element& element) {

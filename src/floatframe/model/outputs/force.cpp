@@ -1,6 +1,5 @@
 // Scalar force of a force element, tension positive [N], or its torque [N m]; or another value of
-// one that has several.
-#include "floatframe/model/element_keys.hpp"
+// one that has several, in its own unit.
 #include "floatframe/model/output_kind.hpp"
 
 namespace floatframe {
@@ -8,8 +7,7 @@ namespace floatframe {
 namespace {
 
 const char* unit_of_value(const Model& model, const Output& output) {
-  if (output.component > 0) return axis_units(true).force;
-  return unit_of_force<ElementQuantity::force>(model, output);
+  return value_unit(model.elements[output.element], output.component);
 }
 
 }  // namespace
@@ -23,7 +21,7 @@ double output_value_of<OutputType::force>(const SystemMotion& motion, const Outp
 constinit const OutputKind force_output = {
     .about = "force or torque, tension positive; of a tyre or bearing the contact force",
     .of = OutputOf::force,
-    .unit = "N or N m",
+    .unit = "N or N m, of further values their own",
     .unit_of = unit_of_value,
     .is_signal = true,
     .one_of_values = true};
