@@ -160,7 +160,7 @@ TEST(LaneChange, PathKeepsTheMarginOfTheWholeVehicle) {
 TEST(LaneChange, PathBendsLeastWhereItTouches) {
   const VehicleOutline point{.width = 1.5, .front = 0.0, .rear = 0.0};
   const std::vector<PathPoint> path = lane_change_path(point, 0.0, 0.1);
-  // Between the gates nothing holds the path: with weights that are w = |y''|^2 the moment of a beam
+  // Between the gates nothing holds the path: with weights w = |y''|^2 the moment of a beam
   // w y'' = y''^3 is linear in x between loads.
   std::vector<double> moment;
   for (std::size_t k = 1; k + 1 < path.size(); ++k)
