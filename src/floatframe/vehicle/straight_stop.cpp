@@ -31,7 +31,8 @@ struct PassedSpeed {
 
 StraightStopResult straight_stop(VehicleRun& run, const StraightStopOptions& o) {
   const DriverView first = run.now().view;
-  PathFollower follower(straight_path({first.x, first.y}, first.yaw), run.axles().wheelbase());
+  PathFollower follower(DrivenPath::straight({first.x, first.y}, first.yaw),
+                        run.axles().wheelbase());
   SpeedController controller(run.mass(), run.lowest_force(), run.highest_force());
   const TrimmedInputs trim = drive_trimmed(run, follower, controller, o.speed);
   const DriverView begin = run.now().view;

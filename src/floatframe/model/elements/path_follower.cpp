@@ -227,7 +227,9 @@ constinit const ElementKind path_follower_element = [] {
   kind.validate = path_follower_validate;
   kind.build = path_follower_build;
   kind.states = path_follower_states;
-  kind.values = [](const ElementKeys&) { return std::vector<std::string>{"angle", "offset"}; };
+  kind.values = [](const ElementKeys&) {
+    return std::vector<ElementValue>{{"angle", "rad"}, {"offset", "m"}};
+  };
   kind.start = path_follower_start;
   kind.settle = path_follower_settle;
   kind.after_step = path_follower_after_step;
