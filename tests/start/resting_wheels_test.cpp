@@ -120,7 +120,7 @@ TEST(RestingWheels, OfEveryLawTakeFewIterations) {
         const StaticsResult s = statics(
             model_of(wheel_on_sledge({.camber = camber, .spring = spring, .height = 0.35}, tyre)));
         expect_quick(s, tyre);
-        if (!free) EXPECT_TRUE(s.notes.empty()) << joined(s.notes);
+        EXPECT_TRUE(free || s.notes.empty()) << joined(s.notes);
       }
 }
 
