@@ -116,7 +116,7 @@ joints:
   axle: {{type: revolute, parent: car, child: wheel, at: [0, 0, 0.42], axis: [-0.05, 1, 0.02],
     velocity: 55}}
 forces:
-  tyre: {{body: wheel, road: flat, axis: [-0.05, 1, 0.02], damping: 1000,{}}}
+  tyre: {{body: wheel, road: flat, axis: [-0.05, 1, 0.02], damping: 1000, {}}}
   brake: {{type: bristle_friction, joint: axle, breakaway: 900, stiffness: 2.0e+4, damping: 20}}
 roads: {{flat: {{profile: [[-1, 0], [1, 0]]}}}}
 outputs: {{load: {{force: tyre}}}}
