@@ -1,5 +1,5 @@
-// Inputs of a vehicle that do nothing, or the opposite, are found at the start; brakes that help the
-// drive, and a stop in a straight line against closed forms.
+// Inputs of a vehicle that do nothing, or the opposite, are found at the start; brakes that help
+// the drive, and a stop in a straight line against closed forms.
 #include <gtest/gtest.h>
 
 #include <algorithm>
