@@ -75,9 +75,10 @@ bodies:
   left: {position: [0, 0.7, 0.3], rigid: {mass: 20, inertia: [1, 1, 1]}}
   right: {position: [0, -0.7, 0.3], rigid: {mass: 20, inertia: [1, 1, 1]}}
 joints:
-  left_slide: {type: prismatic, parent: chassis, child: left_knuckle, at: [0.02, 0.6, 0.3], axis: z}
-  right_slide: {type: prismatic, parent: chassis, child: right_knuckle, at: [0.02, -0.6, 0.3],
-    axis: z}
+  left_slide:
+    {type: prismatic, parent: chassis, child: left_knuckle, at: [0.02, 0.6, 0.3], axis: z}
+  right_slide:
+    {type: prismatic, parent: chassis, child: right_knuckle, at: [0.02, -0.6, 0.3], axis: z}
   left_pin: {type: revolute, parent: left_knuckle, child: left, at: [0.02, 0.6, 0.3], axis: z}
   right_pin: {type: revolute, parent: right_knuckle, child: right, at: [0.02, -0.6, 0.3], axis: z}
 forces:

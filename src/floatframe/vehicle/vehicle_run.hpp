@@ -46,10 +46,10 @@ class VehicleRun {
   /// Of the brakes [N]; zero without.
   double highest_braking() const noexcept { return highest_braking_; }
 
-  /// One step with this road-wheel angle [rad] and this force along the vehicle [N]. What the
-  /// drive cannot do of it, below its lower limit, the brakes do if there are any, and `braking`
-  /// [N] more. An angle or force beyond the limits of its input is the limit. Throws RunError with
-  /// the cause if it fails.
+  /// One step with this road-wheel angle [rad] and this force along the vehicle [N]. What of it
+  /// the drive cannot do, below its lower limit, the brakes do if there are any, and `braking` [N]
+  /// more. An angle or force beyond the limits of its input is the limit. Throws RunError with the
+  /// cause if it fails.
   void step(double steering, double force, double braking = 0.0);
   /// The state, and the return to one. Inputs of the steps in between leave no trace.
   SimulationState save() const { return simulation_.save(); }
