@@ -55,7 +55,7 @@ def rear_wheel_rate():
 
 
 def roll_per_g():
-    """Both axles in series with their tyres, the sprung mass about the axis through the roll centres [deg]."""
+    """Both axles in series with their tyres, all masses about the axis through the roll centres [deg]."""
     h = 1e-4
     arm = h / (strut(h)[0] - strut(0)[0])                       # angle of the arm over the travel [1/m]
     front = front_wheel_rate() * 1.44**2 / 2 + 800 * (1.44 * arm)**2
@@ -64,9 +64,11 @@ def roll_per_g():
     pole = 0.56 - 0.6 * 0.45 / 0.07                             # y of the instant centre of the knuckle, at z = 0.2
     centre = 0.72 * 0.2 / (0.72 - pole)                         # roll centre of the front axle; that of trailing arms is on the road
     at = centre * 1.4 / BASE                                    # roll axis below the centre of mass
-    sprung = 862
-    moment = sprung * G * (0.55 - at)
-    return degrees(moment / (stiffness - moment))
+    # Wheels and arms lean with the body, or less by the camber of the strut, about their contacts.
+    lean = 1 - 0.72 / (0.72 - pole)
+    moment = G * (862 * (0.55 - at) + 2 * 32 * 0.28 + 2 * 30 * 0.28 * lean + 2 * 4 * 0.2 + 2 * 2 * 0.8)
+    gyroscopic = G * (2 * 0.95 + 2 * 1.0 * lean) / RADIUS       # of wheels that turn while the car yaws: sum J/R per acceleration
+    return degrees((moment + gyroscopic) / (stiffness - moment))
 
 
 def understeer():
@@ -78,13 +80,13 @@ def understeer():
 
 
 def stopping_distance(speed, torque):
-    """Until the torque is there (0.2 s, on average half of it), then evenly; the wheels turn with the car. Rolling resistance
+    """Until the torque is there (0.2 s by 10 s^3 - 15 s^4 + 6 s^5: half of it on average), then evenly; the wheels turn with the car. Rolling resistance
     0.012."""
     inertia = MASS + (2 * 1.0 + 2 * 0.95) / RADIUS**2
     brake, rolling = torque / RADIUS / inertia, 0.012 * MASS * G / inertia
     ramp = 0.2
     v1 = speed - (0.5 * brake + rolling) * ramp
-    return speed * ramp - (brake * 0.2 + rolling) * ramp**2 / 2 + v1**2 / (2 * (brake + rolling))
+    return speed * ramp - (brake / 7 + rolling / 2) * ramp**2 + v1**2 / (2 * (brake + rolling))
 
 
 class SmallCar(unittest.TestCase):
@@ -99,17 +101,25 @@ class SmallCar(unittest.TestCase):
 
     def test_wheel_rates(self):
         found = program("vehicle", CAR, "--rig", "k-and-c", "--travel", "0.02")
-        print(json.dumps(found)[:3000])
-        print(front_wheel_rate(), rear_wheel_rate())
+        middle = min(found["travel"], key=lambda point: abs(point["travel_m"]))
+        for axle, rate in ("front", front_wheel_rate()), ("rear", rear_wheel_rate()):
+            self.assertAlmostEqual(middle[axle]["left"]["rate_N_m"], rate, delta=0.005 * rate)
+            for point in found["travel"]:  # the track rod is parallel to the arm
+                self.assertAlmostEqual(point[axle]["left"]["toe_deg"], 0, delta=1e-6)
+        # Bars act in roll alone.
+        rolled = min(found["roll"], key=lambda point: abs(point["travel_m"]))
+        for axle in "front", "rear":
+            self.assertGreater(rolled[axle]["left"]["rate_N_m"], 1.3 * middle[axle]["left"]["rate_N_m"])
 
     def test_steady_circle(self):
-        found = program("vehicle", CAR, "--manoeuvre", "steady-circle", "--speed", "40km/h")
-        print(found)
-        print(understeer(), roll_per_g())
+        found = program("vehicle", CAR, "--manoeuvre", "steady-circle", "--speed", "40km/h")["points"][0]
+        self.assertAlmostEqual(found["understeer_gradient_deg_s2_m"], understeer(), delta=0.04 * understeer())
+        self.assertAlmostEqual(G * found["roll_gradient_deg_s2_m"], roll_per_g(), delta=0.02 * roll_per_g())
 
     def test_stop(self):
         found = program("vehicle", CAR, "--manoeuvre", "straight-stop", "--speed", "72km/h", "--torque", "1500")
-        print(found, stopping_distance(20, 1500))
+        by_hand = stopping_distance(20, 1500)
+        self.assertAlmostEqual(found["distance_m"], by_hand, delta=0.02 * by_hand)
 
 
 if __name__ == "__main__":
