@@ -108,13 +108,14 @@ TEST(CrgFile, ModifiersAreSaidAndNotApplied) {
       read_crg(header_text("LRFI", three_sections,
                            "$ROAD_CRG_MODS\nSCALE_Z_GRID = 3\nREFLINE_OFFSET_X = 7.0\n$\n"
                            "$ROAD_CRG_OPTS\nBORDER_MODE_U = 4\nBORDER_OFFSET_V = 0.5\n"
-                           "BORDER_SMOOTH_UBEG = 2.0\n$\n") +
+                           "BORDER_SMOOTH_UBEG = 2.0\nCURV_MODE = 1\n$\n") +
                    numbers,
                "a.crg");
   EXPECT_TRUE(plain.notes.empty());
   ASSERT_EQ(road.notes.size(), 2u);
   EXPECT_TRUE(contains(road.notes[0], "SCALE_Z_GRID"));
   EXPECT_TRUE(contains(road.notes[1], "BORDER_SMOOTH_UBEG"));
+  EXPECT_TRUE(contains(road.notes[1], "CURV_MODE"));
   EXPECT_EQ(road.edge_u.mode, CrgBorder::reflect);
   EXPECT_EQ(crg_surface(road, 0.2, 0.3).z, 1.0);
   EXPECT_EQ(crg_surface(road, 0.2, 3.0).z, 1.5);
@@ -157,6 +158,8 @@ TEST(CrgFile, DamagedOnes) {
       {with("* a comment", "REFERENCE_LINE_END_U = 9.5"), "a.crg:6:24: mismatch"},
       {with("* a comment", "LONG_SECTION_V_LEFT = 5.0\nLONG_SECTION_V_RIGHT = -5"),
        "a.crg:8:28: contradiction"},
+      {with("* a comment", "LONG_SECTION_V_LEFT = -1.0\nLONG_SECTION_V_RIGHT = 1"),
+       "a.crg:7:24: contradiction"},
       {with("section 3", "section 4"), "a.crg:13:3: wrong_value"},
       {with("section 3", "section 2"), "a.crg:13:3: duplicate"},
       {with("section 3", "section at v = 2"), "a.crg:13:3: contradiction"},
@@ -168,6 +171,7 @@ TEST(CrgFile, DamagedOnes) {
       {header_text("LRFI", three_sections, "$ROAD_CRG_OPTS\nBORDER_MODE_U = 5\n$\n") + row,
        "a.crg:10:17: wrong_value"},
       {good + row, "a.crg:17: missing"},
+      {good + "       1.0       1.0       1.0       1.0\n" + row, "a.crg:16:31: damaged"},
       {good + row + "       1.0       1.0\n", "a.crg:17:21: missing"},
       {good + row + "       1.0       1,0       1.0\n", "a.crg:17:11: not_a_number"},
       {good + row + " *missing* *missing* *missing*\n", "a.crg:17:1: missing"},

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "floatframe/tyres/magic_check.hpp"
 #include "support/error_of.hpp"
 #include "tyres/tyre_table.hpp"
 
@@ -135,6 +136,19 @@ TEST(TirFile, DamagedFiles) {
       {"PCX1 = 1.6", "FZMIN = 9\nFZMAX = 1\nPCX1 = 1.6", "d.tir:13:9: contradiction"},
       {"PCX1 = 1.6", "Q_FZ2 = 400\nPCX1 = 1.6", "d.tir:12:9: contradiction"},
       {"PCX1 = 1.6", "LMUY = 0\nPCX1 = 1.6", "d.tir:12:8: out_of_range"},
+      {"PCX1 = 1.6", "LMUX = -1\nPCX1 = 1.6", "d.tir:12:8: out_of_range"},
+      {"PCX1 = 1.6", "LKX = -1\nPCX1 = 1.6", "d.tir:12:7: out_of_range"},
+      {"PCX1 = 1.6", "LKY = 0\nPCX1 = 1.6", "d.tir:12:7: out_of_range"},
+      {"PCX1 = 1.6", "LTR = -1\nPCX1 = 1.6", "d.tir:12:7: out_of_range"},
+      {"PCX1 = 1.6", "VERTICAL_DAMPING = -50\nPCX1 = 1.6", "d.tir:12:20: out_of_range"},
+      {"PCX1 = 1.6", "LATERAL_STIFFNESS = -5\nPCX1 = 1.6", "d.tir:12:21: out_of_range"},
+      {"PCX1 = 1.6", "BREFF = -8\nPCX1 = 1.6", "d.tir:12:9: out_of_range"},
+      {"PCX1 = 1.6", "Q_FZ2 = -500\nPCX1 = 1.6", "d.tir:12:9: out_of_range"},
+      {"PCX1 = 1.6", "Q_RE0 = 0\nPCX1 = 1.6", "d.tir:12:9: out_of_range"},
+      {"PCX1 = 1.6", "KPUMIN = 0.1\nPCX1 = 1.6", "d.tir:12:10: out_of_range"},
+      {"PCX1 = 1.6", "INFLPRES = -1\nPCX1 = 1.6", "d.tir:12:12: out_of_range"},
+      {"PCX1 = 1.6", "INFLPRES = 9e9\nNOMPRES = 2e5\nPPY1 = -0.6\nPCX1 = 1.6",
+       "d.tir:12:12: out_of_range"},
   };
   for (const DamagedFile& d : all) {
     const std::string text = replaced(small_tir, d.from, d.to);
@@ -144,6 +158,33 @@ TEST(TirFile, DamagedFiles) {
   EXPECT_EQ(error_of([&] { parse_tir(std::string("[MODEL]\n\0x", 10), "d.tir"); }),
             "d.tir: wrong_file");
   EXPECT_TRUE(error_of([&] { read_tir(tyre_data("none.tir")); }).ends_with("none.tir: unreadable"));
+}
+
+/// Scale factors of the model multiply those of the file, which have to make sense first.
+TEST(TirFile, ScalesOfTheModelDoNotHideThoseOfTheFile) {
+  const std::string text = replaced(small_tir, "PCX1 = 1.6", "LKX = -1\nPCX1 = 1.6");
+  EXPECT_EQ(error_of([&] {
+              magic_tyre(parse_tir(text, "d.tir"), {.scales = {{"LKX", -1.0}}});
+            }),
+            "d.tir:12:7: out_of_range");
+}
+
+TEST(TirFile, NotesWhatIsBeyondItsOwnLimits) {
+  const auto notes_of = [](const std::string& more, double pressure) {
+    const TirFile file = parse_tir(small_tir + more, "n.tir");
+    const MagicOptions options{.pressure = pressure};
+    return magic_notes(file, magic_tyre(file, options), options);
+  };
+  const std::string whole =
+      "LONGITUDINAL_STIFFNESS = 3e5\nLATERAL_STIFFNESS = 1e5\nNOMPRES = 2e5\nPRESMAX = 3e5\n";
+  EXPECT_TRUE(notes_of(whole, 0.0).empty());
+  EXPECT_EQ(notes_of(whole + "INFLPRES = 4e5\n", 0.0).at(0),
+            "line 23: INFLPRES 400000 Pa is beyond PRESMAX, 300000 Pa");
+  EXPECT_EQ(notes_of(whole, 4e5).at(0), "line 22: pressure 400000 Pa is beyond PRESMAX, 300000 Pa");
+  EXPECT_EQ(notes_of(whole + "FZMAX = 3000\n", 0.0).at(0),
+            "line 9: FNOMIN 4000 N is beyond FZMAX, 3000 N");
+  EXPECT_EQ(notes_of(whole + "FREFF = -2\n", 0.0).size(), 1U);
+  EXPECT_EQ(notes_of("", 0.0).size(), 1U);  // relaxation lengths
 }
 
 /// Every beginning of a file ends in a tyre or in a sentence.

@@ -108,6 +108,10 @@ class CrgFileReader {
   void across(double steps) {
     const auto right = header_.value("LONG_SECTION_V_RIGHT"),
                left = header_.value("LONG_SECTION_V_LEFT");
+    if (right && left && *right >= *left)
+      fail(ErrorCode::contradiction, header_.mark("LONG_SECTION_V_RIGHT"),
+           fmt::format("found {:g} m, expected less than LONG_SECTION_V_LEFT, {:g} m", *right,
+                       *left));
     const auto given = header_.value("LONG_SECTION_V_INCREMENT");
     const double h = given ? *given : right && left ? (*left - *right) / steps : 0.01;
     if (!(h >= shortest))
@@ -121,8 +125,6 @@ class CrgFileReader {
     const double first = right ? *right : left ? *left - steps * h : -0.5 * steps * h;
     for (std::size_t k = 0; k < order_.size(); ++k) road_.v.push_back(first + h * k);
   }
-
-  // -- rows
 
   void text_rows() {
     const std::size_t width = header_.format == CrgFormat::LRFI ? 10 : 20, most = 80 / width;
@@ -143,10 +145,10 @@ class CrgFileReader {
           if (line) end_of_text();
           return;
         }
-        for (std::size_t j = k; j < std::min(k + most, count); ++j) {
+        const std::size_t end = std::min(k + most, count);
+        for (std::size_t j = k; j < end; lines[j++] = line_)
           row[j] = field(*line, (j - k) * width, width);
-          lines[j] = line_;
-        }
+        nothing_behind(*line, (end - k) * width);
       }
       if (rows_ == 0) reserve(source_.left() / std::max<std::uint64_t>(before - source_.left(), 1));
       take(row, [&](std::size_t k) {
@@ -163,6 +165,13 @@ class CrgFileReader {
         fail(ErrorCode::damaged, {source_.name(), line_, 1},
              "found numbers after an empty line, expected none");
     }
+  }
+
+  void nothing_behind(std::string_view line, std::size_t end) const {
+    if (line.size() <= end || line.find_first_not_of(' ', end) == std::string_view::npos) return;
+    fail(ErrorCode::damaged, {source_.name(), line_, static_cast<int>(end) + 1},
+         fmt::format("found '{}' behind the last number of the line, expected its end",
+                     printable(line.substr(end, 20))));
   }
 
   double field(std::string_view line, std::size_t begin, std::size_t width) const {

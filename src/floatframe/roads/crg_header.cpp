@@ -205,7 +205,7 @@ void CrgHeaderReader::option(const std::string& key, double x, std::size_t colum
     header_.edge_u.offset = x;
   } else if (key == "BORDER_OFFSET_V") {
     header_.edge_v.offset = x;
-  } else if (key.starts_with("BORDER_SMOOTH") || key == "REFLINE_CONTINUATION") {
+  } else {
     options_.push_back(key);
   }
 }

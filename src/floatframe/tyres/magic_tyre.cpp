@@ -7,6 +7,7 @@
 #include "floatframe/core/number_rule.hpp"
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/tyres/magic_radius.hpp"
+#include "floatframe/tyres/magic_check.hpp"
 
 namespace floatframe {
 
@@ -22,7 +23,7 @@ class MagicReader {
     t_.limited = options_.limits;
     t_.turning_speed = options_.turning_speed;
     t_.mirror = mirrored() ? -1.0 : 1.0;
-    check();
+    check_magic_file(file_, t_.version, options_, errors_);
     errors_.throw_if_any();
     sizes();
     longitudinal();
@@ -76,43 +77,6 @@ class MagicReader {
     return (options_.side == MagicSide::right) != (side == "RIGHT");
   }
 
-  void need_positive(std::string_view keyword, const char* unit = "") {
-    if (options_.scales.contains(std::string(keyword))) return;  // its key says it
-    const NumberRule rule = positive_number(unit);
-    if (file_.has(keyword) || is_tir_scale(keyword)) {
-      if (const auto wrong = rule.complaint(file_.number(keyword)))
-        error(ErrorCode::out_of_range, keyword, fmt::format("{}: {}", keyword, *wrong));
-    } else {
-      error(ErrorCode::missing, keyword,
-            fmt::format("{}: found none, expected {}", keyword, rule.expectation()));
-    }
-  }
-  void need_other_than_zero(std::string_view keyword) {
-    if (!file_.has(keyword))
-      error(ErrorCode::missing, keyword,
-            fmt::format("{}: found none, expected a number other than 0", keyword));
-    else if (file_.number(keyword) == 0.0)
-      error(ErrorCode::out_of_range, keyword,
-            fmt::format("{}: found 0, expected a number other than 0", keyword));
-  }
-
-  void check() {
-    need_positive("UNLOADED_RADIUS", "m");
-    need_positive("FNOMIN", "N");
-    need_positive("VERTICAL_STIFFNESS", "N/m");
-    if (file_.has("LONGVL")) need_positive("LONGVL", "m/s");
-    if (file_.has("NOMPRES")) need_positive("NOMPRES", "Pa");
-    for (const char* keyword :
-         {"PCX1", "PDX1", "PKX1", "PCY1", "LFZO", "LCX", "LMUX", "LKX", "LCY", "LMUY", "LKY"})
-      need_positive(keyword);
-    for (const char* keyword : {"PDY1", "PKY1", "PKY2"}) need_other_than_zero(keyword);
-    if (file_.number("PKY1") * file_.number("PKY2") > 0.0)
-      error(ErrorCode::out_of_range, "PKY1",
-            fmt::format("PKY1: found {} with PKY2 {}, expected opposite signs: a positive slip "
-                        "angle gives a negative force in the axes ISO-W",
-                        number_text(file_.number("PKY1")), number_text(file_.number("PKY2"))));
-  }
-
   void sizes() {
     t_.R0 = c("UNLOADED_RADIUS");
     t_.Fz0 = c("FNOMIN");
@@ -125,9 +89,8 @@ class MagicReader {
     range("CAM", t_.inclination);
     range("FZ", t_.load);
     if (t_.version != MagicVersion::mf52) {
-      const double measured = c(file_.has("INFLPRES") ? "INFLPRES" : "NOMPRES");
       const double nominal = c(file_.has("NOMPRES") ? "NOMPRES" : "INFLPRES");
-      const double pressure = options_.pressure > 0.0 ? options_.pressure : measured;
+      const double pressure = magic_pressure(file_, options_);
       if (nominal > 0.0 && pressure > 0.0) dpi_ = (pressure - nominal) / nominal;  // (4.E2b)
     }
     if (t_.version == MagicVersion::mf52) {

@@ -9,6 +9,7 @@
 // A tyre of the side that its file does not say is mirrored by the generic law.
 #include "floatframe/core/content_hash.hpp"
 #include "floatframe/model/rolling_tyre_kind.hpp"
+#include "floatframe/tyres/magic_check.hpp"
 #include "floatframe/tyres/magic_radius.hpp"
 
 namespace floatframe {
@@ -143,9 +144,8 @@ MagicTyreData magic_tyre_data(const TirFile& file, const MagicFormulaTyre& keys)
   data.mirrored = data.tyre.mirror < 0.0;
   data.tyre.mirror = 1.0;
   for (const std::string& note : file.notes) data.notes.push_back(keys.file + ": " + note);
-  if (data.tyre.fixed_sigma > 0.0)
-    data.notes.push_back(keys.file +
-                         ": relaxation lengths are not given, UNLOADED_RADIUS is taken");
+  for (const std::string& note : magic_notes(file, data.tyre, options))
+    data.notes.push_back(keys.file + ": " + note);
   return data;
 }
 
