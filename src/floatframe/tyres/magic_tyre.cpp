@@ -5,9 +5,8 @@
 #include <cmath>
 
 #include "floatframe/core/number_rule.hpp"
-#include "floatframe/core/suggest.hpp"
-#include "floatframe/tyres/magic_radius.hpp"
 #include "floatframe/tyres/magic_check.hpp"
+#include "floatframe/tyres/magic_radius.hpp"
 
 namespace floatframe {
 
