@@ -153,6 +153,33 @@ TEST(RollingTyre, ASlideHoldsTheDeflection) {
   EXPECT_GT(efforts(x).state_rates[0], 0.0);
 }
 
+// At rest a deflection beyond that of the largest force comes back to it, if the force falls there.
+TEST(RollingTyre, AtRestNoDeflectionStaysBeyondTheLargestForce) {
+  for (const ElementType type : {ElementType::magic_formula_tyre, ElementType::tmeasy_tyre}) {
+    ExampleNumbers numbers(9);
+    ElementExample x =
+        element_kind(type).example(static_cast<std::size_t>(RollingRegime::rolling), numbers);
+    x.markers[0].v.setZero();
+    x.markers[0].w.setZero();
+    const auto at = [&](double u) {
+      x.states[0] = u;
+      x.states[1] = 0.0;
+      return efforts(x);
+    };
+    // Beyond the limit L the rate is -(u - L)/T.
+    const double far = 0.2, u_rate = at(far).state_rates[0];
+    const double limit = far + rolling::settle_time * u_rate;
+    EXPECT_GT(limit, 1e-3);
+    EXPECT_LT(limit, 0.5 * far);
+    EXPECT_NEAR(at(1.5 * limit).state_rates[0], -0.5 * limit / rolling::settle_time, 1e-9);
+    EXPECT_EQ(at(0.99 * limit).state_rates[0], 0.0);
+    EXPECT_NEAR(at(-far).state_rates[0], -u_rate, 1e-9);
+    const double most = value(at(limit), rolling::longitudinal_force);
+    EXPECT_LT(value(at(2.0 * limit), rolling::longitudinal_force), most);
+    EXPECT_LT(value(at(0.5 * limit), rolling::longitudinal_force), most);
+  }
+}
+
 TEST(RollingTyre, BackwardsIsTheMirrorImage) {
   LinearTyre keys = plain_tyre();
   keys.relaxation = false;

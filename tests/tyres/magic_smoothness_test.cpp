@@ -119,6 +119,24 @@ TEST(MagicLoads, FollowTheForcesWithExactDerivatives) {
   }
 }
 
+// Else tyres that hold against each other at rest would swing up: what changes its sign with the
+// sense of rolling, as the lateral force of longitudinal slip does, would be a damper below zero.
+TEST(MagicForces, HaveNoSlopeOverTheSpeedAtRest) {
+  const MagicTyre tyre = magic_tyre_of("a_205_60R15_mf61.tir");
+  for (const double kappa : {-0.05, 0.0, 0.03}) {
+    const Dual speed = Dual::variable(0.0, 0);
+    const MagicForces<Dual> f =
+        magic_forces(tyre, MagicInput<Dual>{Dual(4000.0), Dual(kappa), Dual(0.01), Dual(0.02),
+                                            speed, Dual(2.0), Dual(1.0)});
+    for (const Dual* x : {&f.Fx, &f.Fy, &f.Mx, &f.My, &f.Mz}) EXPECT_EQ(x->d[0], 0.0);
+    const auto lateral = [&](double v) {
+      return magic_forces(tyre, MagicInput<double>{4000.0, kappa, 0.01, 0.02, v, 2.0, 1.0}).Fy;
+    };
+    EXPECT_NEAR(f.Fy.v, 0.5 * (lateral(-1.0) + lateral(1.0)), 1e-9);
+    if (kappa != 0.0) EXPECT_GT(std::abs(lateral(1.0) - lateral(-1.0)), 100.0);
+  }
+}
+
 // Spin and camber make a tyre larger: its load begins at zero nevertheless.
 TEST(MagicLoads, BeginAtZero) {
   for (const char* name :

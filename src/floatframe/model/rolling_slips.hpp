@@ -1,13 +1,33 @@
 #pragma once
-// The law of a tyre that rolls without its contact: slips and rates of its states, (1) to (4) of
-// rolling_tyre.hpp, and what a Law is. Over two scalars: S of the slips, and B of what they do not
-// change. Steps take dual numbers for S and doubles for B: rows need no other derivatives.
+// Slips, states and horizontal forces of a tyre that rolls, over any scalar. Slip velocities
+//   V_sx = V_cx - Omega r_e,  V_sy = V_cy;  V_sx = 0 of a wheel that rolls freely on its carrier
+// States: the deflections u, v of the carcass along and across [m],
+//   udot = -V_sx - |V_cx| u/sigma_x,  vdot = -V_sy - |V_cx| v/sigma_y                           (1)
+// and from them the slips that the law of the forces sees,
+//   kappa = (u - t_x V_sx)/sigma_x,  tan(alpha) = -(v - t_y V_sy)/sigma_y                       (2)
+//   t = k_v/(2 C) (1 + cos(pi |V_c|/v_d)) below |V_c| = v_d, 0 above                            (3)
+// In steady rolling these are kappa = -V_sx/|V_cx|, tan(alpha) = V_cy/|V_cx|. At rest the states
+// are springs of the stiffness C = slip stiffness / sigma with the dampers k_v, so that a parked
+// vehicle stands and rocks, and |V| has no floor: nothing creeps.
+// A deflection is held where the law gives its largest force, L = (L_x, L_y), while it would grow:
+// with s = |(u/L_x, v/L_y)| and the growth g = ds/dt of (1), where g > 0,
+//   (udot, vdot) -= a g (u, v)/s,  a = (s - 1)/b above s = 1                                    (4)
+// so that s settles at 1 + b while it slides; without it a slide would wind the states up to sigma
+// and throw the vehicle back when it ends. Of a law whose force falls beyond its limit L grows with
+// the speed of sliding up to `reach` sigma, by (1 - p), p = (3) over k_v/C with V_s in the place of
+// V_c. As it stops, its deflections come back to where the force is largest, at any g:
+//   (udot, vdot) -= p (s - 1)/T (u, v)/s above s = 1                                            (5)
+// for beyond it a contact that sticks would be a spring of negative stiffness, and two of them that
+// hold against each other would not stand. In the air states decay with the time `air_time`.
+// Without `relaxation` there are none, and it creeps:
+//   kappa = -V_sx/V*, tan(alpha) = V_sy/V*, V* = |V_cx|, below v_d (V_cx^2 + v_d^2)/(2 v_d)
+// A tyre of the other side sees -gamma, -tan(alpha) and gives -F_y, -M_x, -M_z. Without friction of
+// the road there are no forces along it and no M_z.
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "floatframe/description/tyre_elements.hpp"
-#include "floatframe/math/dual.hpp"
+#include "floatframe/model/element_evaluation.hpp"
 
 namespace floatframe {
 
@@ -29,7 +49,7 @@ template <class S, class B = S>
 struct TyreForces {
   S F_x = 0.0, F_y = 0.0;             ///< [N]
   B M_x = 0.0, M_y = 0.0, M_z = 0.0;  ///< [N m]
-  B friction_use = 0.0;               ///< horizontal force over the largest possible one
+  B friction_use = 0.0;               ///< over the largest horizontal force; 1 if there is none
 };
 
 /// Of the carcass and the contact, at a load and camber.
@@ -42,7 +62,7 @@ struct TyreLengths {
 
 /// A Law is a struct of static members:
 ///   using Keys = ...: the description, a RollingTyre; using Data = ...: what `build` computes
-///   static constexpr bool falls;   the force falls beyond its limit: L grows (rolling_tyre.hpp)
+///   static constexpr bool falls;         the force falls beyond the limit: L grows, see above
 ///   static constexpr bool slip_of_centre;  slips are those of the wheel centre
 ///   double radius(const Keys&, const Data&)        unloaded [m]
 ///   bool mirrored(const Keys&, const Data&)        its data are of the other side
@@ -67,7 +87,8 @@ inline constexpr double reach = 10.0;        ///< slip up to which a deflection 
 inline constexpr double air_time = 0.01;     ///< [s]
 inline constexpr double rest_time = 3e-3;    ///< k_v/C without `rest_damping` [s]
 inline constexpr double sense_speed = 0.1;   ///< v_r [m/s]
-inline constexpr double least_limit = 1e-9;  ///< of a tyre that hardly touches [m]
+inline constexpr double settle_time = 5e-3;  ///< T of (5) [s]
+inline constexpr double least_limit = 1e-3;  ///< L over sigma; less of friction and load
 }  // namespace rolling
 
 /// |x|, with the derivative 0 at 0.
@@ -106,23 +127,27 @@ struct RollingForces {
 /// L of (4)
 template <class S, class B>
 S rolling_limit(bool falls, const B& limit, const B& sigma, const S& still) noexcept {
-  const B least = value_of(limit) > rolling::least_limit ? limit : B(rolling::least_limit);
+  const B shortest = rolling::least_limit * sigma;
+  const B least = value_of(limit) > value_of(shortest) ? limit : shortest;
   if (!falls) return least;
   return least + (S(1.0) - still) * (rolling::reach * sigma);
 }
 
-/// (4)
+/// (4) and, with p > 0, (5)
 template <class S, class B>
-void hold_deflections(const S& L_x, const S& L_y, const S& u, const S& v,
+void hold_deflections(const S& L_x, const S& L_y, const S& u, const S& v, const S& p,
                       RollingForces<S, B>& out) noexcept {
   using std::sqrt;
   const S a = u / L_x, b = v / L_y, s = sqrt(S(a * a + b * b));
   if (value_of(s) <= 1.0) return;
   const S growth = (a * out.u_rate / L_x + b * out.v_rate / L_y) / s;
-  if (value_of(growth) <= 0.0) return;
-  S part = (s - 1.0) / rolling::blend;
-  if (value_of(part) > rolling::steepest) part = rolling::steepest;
-  const S pull = part * growth / s;
+  S pull = p * (s - 1.0) / rolling::settle_time;
+  if (value_of(growth) > 0.0) {
+    S part = (s - 1.0) / rolling::blend;
+    if (value_of(part) > rolling::steepest) part = rolling::steepest;
+    pull += part * growth;
+  }
+  pull /= s;
   out.u_rate -= pull * u;
   out.v_rate -= pull * v;
 }
@@ -137,7 +162,7 @@ TyreLengths<B> limited_lengths(const typename Law::Keys& keys, const typename La
   return l;
 }
 
-/// (4). `l`: with lower bounds of the limits, which is enough for a tyre that does not slide.
+/// (4) and (5). `l`: with lower bounds of the limits, which is enough for a tyre that does not slide.
 template <class Law, class S, class B>
 void hold_slides(const typename Law::Keys& keys, const typename Law::Data& data,
                  const RollingMotion<S, B>& m, const S* states, TyreLengths<B> l,
@@ -148,15 +173,15 @@ void hold_slides(const typename Law::Keys& keys, const typename Law::Data& data,
   if (a * a * L_y * L_y + b * b * L_x * L_x < L_x * L_x * L_y * L_y) return;
   if constexpr (requires { Law::limits(keys, data, m.load, m.camber, m.friction, l); })
     Law::limits(keys, data, m.load, m.camber, m.friction, l);
-  S still = 1.0;
+  S still = 1.0, back = 0.0;
   if constexpr (Law::falls)
-    still = fading(S(sqrt(S(m.v_sx * m.v_sx + m.v_sy * m.v_sy))), keys.damping_speed);
+    back = still = fading(S(sqrt(S(m.v_sx * m.v_sx + m.v_sy * m.v_sy))), keys.damping_speed);
   hold_deflections(rolling_limit(Law::falls, l.limit_x, l.sigma_x, still),
                    rolling_limit(Law::falls, l.limit_y, l.sigma_y, still), states[0], states[1],
-                   out);
+                   back, out);
 }
 
-/// (1) to (4) alone. Without states: the steady slips.
+/// (1) to (5) alone. Without states: the steady slips.
 template <class Law, class S, class B>
 RollingForces<S, B> rolling_slips(const typename Law::Keys& keys, const typename Law::Data& data,
                                   const RollingMotion<S, B>& m, const S* states,
@@ -205,6 +230,10 @@ void add_tyre_forces(const typename Law::Keys& keys, const typename Law::Data& d
   out.of.F_y *= side;
   out.of.M_x *= side;
   out.of.M_z *= side;
+  if (m.friction > 0.0) return;
+  out.of.F_x = out.of.F_y = 0.0;
+  out.of.M_z = 0.0;
+  out.of.friction_use = 1.0;
 }
 
 }  // namespace floatframe

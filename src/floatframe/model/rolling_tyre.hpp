@@ -1,28 +1,13 @@
 #pragma once
-// The law of a tyre that rolls, over any scalar; what is special of a kind is in its Law (below).
-// Contact, its frame and its motion V_cx, V_cy, Omega: rolling_contact.hpp. Slip velocities
-//   V_sx = V_cx - Omega r_e,  V_sy = V_cy;  V_sx = 0 of a wheel that rolls freely on its carrier
-// States: the deflections u, v of the carcass along and across [m],
-//   udot = -V_sx - |V_cx| u/sigma_x,  vdot = -V_sy - |V_cx| v/sigma_y                           (1)
-// and from them the slips that the law of the forces sees,
-//   kappa = (u - t_x V_sx)/sigma_x,  tan(alpha) = -(v - t_y V_sy)/sigma_y                       (2)
-//   t = k_v/(2 C) (1 + cos(pi |V_c|/v_d)) below |V_c| = v_d, 0 above                            (3)
-// In steady rolling these are kappa = -V_sx/|V_cx|, tan(alpha) = V_cy/|V_cx|. At rest the states
-// are springs of the stiffness C = slip stiffness / sigma with the dampers k_v, so that a parked
-// vehicle stands and rocks, and |V| has no floor: nothing creeps.
-// A deflection is held where the law gives its largest force, L = (L_x, L_y), while it would grow:
-// with s = |(u/L_x, v/L_y)| and the growth g = ds/dt of (1), where g > 0,
-//   (udot, vdot) -= a g (u, v)/s,  a = (s - 1)/b above s = 1                                    (4)
-// so that s settles at 1 + b while it slides; without it a slide would wind the states up to sigma
-// and throw the vehicle back when it ends. Of a law whose force falls beyond its limit L grows with
-// the speed of sliding up to `reach` sigma, from (3) with V_s in the place of V_c. In the air
-// states decay with the time `air_time`. Without `relaxation` there are none, and it creeps:
-//   kappa = -V_sx/V*, tan(alpha) = V_sy/V*, V* = |V_cx|, below v_d (V_cx^2 + v_d^2)/(2 v_d)
+// The law of a tyre that rolls, over any scalar; what is special of a kind is in its Law
+// (rolling_slips.hpp, with the states and the forces along the road).
+// Contact, its frame and its motion V_cx, V_cy, Omega: rolling_contact.hpp. On a carrier (`spinning:
+// false`) Omega is that of a wheel that rolls freely: Omega = V_cx/r_e, with r_e of this Omega.
 // Wrench at the wheel centre, with the arm to the contact point:
 //   F = F_x e_x + F_y e_y + F_z n,  T = arm x F + M_x e_x + s M_y e_y + M_z n,
 //   F_z = load(d) + c ddot,  s = w/sqrt(w^2 + v_r^2), w = Omega r_e: the sense of rolling.
-// On a carrier F_x = s M_y/r_l, w = V_cx, and the part of T along the axis is left out.
-// A tyre of the other side sees -gamma, -tan(alpha) and gives -F_y, -M_x, -M_z.
+// On a carrier no torque about the axis a is left, T.a = 0, by the force along the road
+//   F_x = (s M_y cos(gamma) + M_z sin(gamma))/r_l
 //   rows   F_z: load' / (e_z.n), c / (e_z.n) along n at P; F_x, F_y: their slopes over V_sx, V_sy
 //          with u, v following, along e_x, e_y at P, as far as they damp. They leave out what the
 //          horizontal forces have of load and position, the turning of the frame, moments.
@@ -44,11 +29,36 @@ SignalValue<S> rolling_plate(const PortsOf<S>& in) noexcept {
   return {S(plate.f + road.f), plate.df + road.df, plate.ddf + road.ddf};
 }
 
+/// Omega of a wheel that rolls freely with this contact. Load and radius follow from it so little
+/// that each round gives more than one digit.
+template <class Law, class S>
+S free_spin(const typename Law::Keys& keys, const typename Law::Data& data,
+            const RollingContact<S>& c) noexcept {
+  constexpr int rounds = 12;
+  constexpr double least = 0.1;  // r_e over the radius, of a wheel deep in its road
+  const double radius = Law::radius(keys, data), side = Law::mirrored(keys, data) ? -1.0 : 1.0;
+  const S deflection = radius - c.loaded_radius, camber = side * c.camber;
+  S spin = c.v_cx / radius;
+  for (int k = 0; k < rounds; ++k) {
+    S load = Law::load(keys, data, deflection, camber, spin) + keys.damping * c.sinking;
+    if (value_of(load) < 0.0) load = 0.0;
+    S r_e = Law::effective_radius(keys, data, load, deflection, spin);
+    if (value_of(r_e) < least * radius) r_e = least * radius;
+    const S before = spin;
+    spin = c.v_cx / r_e;
+    if (std::abs(value_of(spin) - value_of(before)) <= 1e-14 * std::abs(value_of(spin))) break;
+  }
+  return spin;
+}
+
 template <class Law, class S>
 RollingContact<S> contact_of_tyre(const PortsOf<S>& in) noexcept {
   const auto& keys = in.template keys<typename Law::Keys>();
-  return rolling_contact(in, keys, Law::radius(keys, in.template data<typename Law::Data>()),
-                         rolling_plate(in), Law::slip_of_centre);
+  const auto& data = in.template data<typename Law::Data>();
+  RollingContact<S> c =
+      rolling_contact(in, keys, Law::radius(keys, data), rolling_plate(in), Law::slip_of_centre);
+  if (c.found && !keys.spinning) c.spin = free_spin<Law>(keys, data, c);
+  return c;
 }
 
 /// F_z with its damping, and what it follows from.
@@ -134,10 +144,9 @@ void put_rolling_forces(const RollingContact<S>& c, const RollingMotion<S>& m, c
   using std::atan2;
   S F_x = f.of.F_x;
   const S M_y = f.of.M_y * sense_of_rolling(spinning ? S(m.spin * r_e) : m.v_cx);
-  if (!spinning) F_x = M_y / c.loaded_radius;
+  if (!spinning) F_x = S(M_y * c.e_y.dot(c.axis) + f.of.M_z * c.n.dot(c.axis)) / c.loaded_radius;
   const V F = F_x * c.e_x + f.of.F_y * c.e_y + out.force * c.n;
-  V T = c.arm.cross(F) + f.of.M_x * c.e_x + M_y * c.e_y + f.of.M_z * c.n;
-  if (!spinning) T -= S(T.dot(c.axis)) * c.axis;
+  const V T = c.arm.cross(F) + f.of.M_x * c.e_x + M_y * c.e_y + f.of.M_z * c.n;
   out.wrench[0] = {F, T};
   out.further[rolling::longitudinal_force] = F_x;
   out.further[rolling::lateral_force] = f.of.F_y;
@@ -183,10 +192,7 @@ void rolling_tyre_law(const PortsOf<S>& in, EffortsOf<S>& out) noexcept {
   out.further[rolling::effective_radius] = r_e;
   RollingMotion<S> m{l.load, l.deflection, c.camber,  c.v_cx, S(c.v_cx - c.spin * r_e),
                      c.v_cy, c.spin,       c.friction};
-  if (!keys.spinning) {
-    m.v_sx = 0.0;
-    m.spin = c.v_cx / r_e;
-  }
+  if (!keys.spinning) m.v_sx = 0.0;
   const bool states = in.element.states > 0;
   if (rolls_at_rest(in)) {
     out.wrench[0].F = l.load * c.n;

@@ -8,7 +8,7 @@
 // Fy' = Gyk Fy0(gamma = 0) in 6.x, Fy - SVyk in 5.2. Rolling backwards is the mirror image of
 // rolling forwards: Fx(kappa) = -Fx'(-kappa), Fy = Fy', Mx = Mx', My = -My', Mz = -Mz', where the
 // formulas with a dash roll forwards. Below a small speed the two blend, so that nothing jumps at
-// rest. No turn slip.
+// rest, and without a slope there, which would be a damper that may be negative. No turn slip.
 // Where the book's print and the manual of MF-Tyre differ the manual holds, which three public
 // programs share: My with Fz0, Mx with atan((QSX6 Fz/Fz0)^2), one cosine in the residual torque,
 // equivalent slips with atan and tan, Amu = 1. In the book's form the friction of Fx, Bt, Dt, Mx,

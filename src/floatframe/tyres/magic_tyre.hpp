@@ -30,7 +30,7 @@ struct MagicOptions {
   /// Where the wheel is: a tyre that was measured on the other side (TYRESIDE) is mirrored.
   MagicSide side = MagicSide::file;
   /// Below this speed forward and backward rolling blend into each other [m/s].
-  double turning_speed = 0.1;
+  double turning_speed = 1.0;
   /// Scale factors instead of those of the file, as {"LMUY", 0.8}.
   std::map<std::string, double> scales = {};
 };
@@ -45,7 +45,7 @@ struct MagicTyre {
   MagicForm form = MagicForm::manual;
   bool limited = false;
   double mirror = 1.0;  ///< -1 for a mirrored tyre
-  double turning_speed = 0.1;
+  double turning_speed = 1.0;
 
   double R0 = 0.0;            ///< UNLOADED_RADIUS
   double Fz0 = 0.0;           ///< FNOMIN

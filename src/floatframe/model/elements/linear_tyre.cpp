@@ -57,14 +57,17 @@ struct LinearTyreLaw {
     S side = -(q * keys.cornering_stiffness * x.tan_alpha);
     f.F_y = side - q * keys.camber_stiffness * x.camber;
     f.M_y = -keys.rolling_resistance * x.load * B(keys.radius - x.deflection);
-    const S use = sqrt(S(f.F_x * f.F_x + f.F_y * f.F_y)) / most;
-    if (value_of(use) > 1.0) {
-      f.F_x /= use;
-      f.F_y /= use;
-      side /= use;
+    const S square = f.F_x * f.F_x + f.F_y * f.F_y;
+    if (value_of(square) > value_of(most) * value_of(most)) {
+      const S part = most / S(sqrt(square));
+      f.F_x *= part;
+      f.F_y *= part;
+      side *= part;
+      f.friction_use = 1.0;
+    } else if (value_of(square) > 0.0) {
+      f.friction_use = in_scalar<B>(S(sqrt(square))) / most;
     }
     f.M_z = in_scalar<B>(S(-keys.trail * side));
-    f.friction_use = value_of(use) > 1.0 ? B(1.0) : in_scalar<B>(use);
     return f;
   }
   template <class S>
