@@ -9,7 +9,8 @@
 // The heading is y' - l y'' with the length l of the sideslip, beta = l kappa: a slowly driven
 // vehicle has the distance of its rear axle from its point. The corner at the distance X ahead of
 // the point is at y + X (y' - l y'') +- b/2 for small angles, and linear in X: conditions stand at
-// the ends of the part of a side that is within a gate. With the conditions A y <= c the multipliers are the nonnegative ones with the least
+// the ends of the part of a side that is within a gate. With the conditions A y <= c the
+// multipliers are the nonnegative ones with the least
 //   lambda.G lambda / 2 + c.lambda,  G = A Q^-1 A^T,  y = -Q^-1 A^T lambda                      (2)
 // found by active sets (Lawson and Hanson, Solving Least Squares Problems, 1974, chapter 23).
 #include <vector>
@@ -20,8 +21,8 @@
 namespace floatframe {
 
 /// Points from x = -20 m to the end of the track and the length of the vehicle beyond, in the axes
-/// of the track. `sideslip`: l [m]; `margin` [m], at most a quarter of what is free in the narrowest gate.
+/// of the track. `sideslip`: l [m]; `margin` [m], of a gate at most a quarter of what is free there.
 std::vector<PathPoint> lane_change_path(const VehicleOutline& vehicle, double sideslip = 0.0,
-                                        double margin = 0.05);
+                                        double margin = 0.07);
 
 }  // namespace floatframe
