@@ -71,8 +71,13 @@ forces:
   motor: {type: joint_spring, joint: slide, actuator: {controller: cruise}}
   drag: {type: joint_spring, joint: slide, actuator: -300}
 controllers:
-  cruise: {type: speed_controller, measured: {rate: motor}, target: 20, mass: 1200,
-    lower: -2400, upper: LIMIT}
+  cruise:
+    type: speed_controller
+    measured: {rate: motor}
+    target: 20
+    mass: 1200
+    lower: -2400
+    upper: LIMIT
 outputs: {v: {joint_velocity: slide}, F: {controller: cruise}}
 simulation: {step: 0.01, duration: 5}
 )";

@@ -156,12 +156,11 @@ TEST(LaneChange, PathKeepsTheMarginOfTheWholeVehicle) {
     }
 }
 
-// With one gate-wide vehicle length of zero: a cubic through the points that touch, by (1).
 TEST(LaneChange, PathBendsLeastWhereItTouches) {
   const VehicleOutline point{.width = 1.5, .front = 0.0, .rear = 0.0};
   const std::vector<PathPoint> path = lane_change_path(point, 0.0, 0.1);
-  // Between the gates nothing holds the path: with weights w = |y''|^2 the moment of a beam
-  // w y'' = y''^3 is linear in x between loads.
+  // Between the gates nothing holds the path: the moment w y'' = y''^3 of a beam with the stiffness
+  // w = y''^2 is linear in x.
   std::vector<double> moment;
   for (std::size_t k = 1; k + 1 < path.size(); ++k)
     if (path[k].x > 13.0 && path[k].x < 24.5)
