@@ -1,8 +1,10 @@
 // OpenCRG roads against the ASAM C-API 1.2.0 without modifiers and against closed forms.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -46,12 +48,14 @@ TEST_P(CrgReference, EveryRow) {
   CrgRoad road = read_crg(std::filesystem::path(folder + GetParam() + ".crg"));
   const std::vector<ReferenceRow> rows = reference_rows(GetParam());
   ASSERT_GT(rows.size(), 100u);
+  double place_error = 0.0, height_error = 0.0;
   for (const ReferenceRow& r : rows) {
     road.edge_u.mode = r.border_u;
     road.edge_v.mode = r.border_v;
     const LinePlace place = road.line.at(r.x, r.y);
     EXPECT_NEAR(place.u, r.u, 1e-8);
     EXPECT_NEAR(place.v, r.v, 1e-8);
+    place_error = std::max({place_error, std::abs(place.u - r.u), std::abs(place.v - r.v)});
     const ReferenceLine::Node back = road.line.place(r.u, r.v);
     EXPECT_NEAR(back.x, r.x, 1e-8);
     EXPECT_NEAR(back.y, r.y, 1e-8);
@@ -62,10 +66,13 @@ TEST_P(CrgReference, EveryRow) {
       continue;
     }
     EXPECT_NEAR(h.z, r.z, 1e-8) << r.u << " " << r.v;
+    height_error = std::max(height_error, std::abs(crg_surface(road, r.x, r.y).z - r.z));
     EXPECT_NEAR(crg_surface(road, r.x, r.y).z, r.z, 1e-8);
     EXPECT_NEAR(road.line.heading(r.u), r.phi, 1e-8) << r.u;
     EXPECT_NEAR(road.line.curvature(r.u, r.v), r.curvature, 1e-6) << r.u << " " << r.v;
   }
+  std::printf("[ figure ] %s: %zu rows, place %.3g m, height %.3g m\n", GetParam(), rows.size(),
+              place_error, height_error);
 }
 
 INSTANTIATE_TEST_SUITE_P(Roads, CrgReference,

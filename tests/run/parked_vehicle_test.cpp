@@ -107,6 +107,7 @@ TEST(QuarterVehicleStop, RocksBackAndStands) {
   for (std::size_t k = 0; k < r.table.rows(); ++k) furthest = std::max(furthest, r.table.at(k, 1));
   const double back = furthest - r.table.at(r.table.rows() - 1, 1),
                expected = car_mass * earth_gravity / rest_stiffness;
+  figure("quarter_vehicle_back", back / expected);
   EXPECT_NEAR(back, expected, 0.03 * expected);
   EXPECT_LT(std::abs(r.table.at(r.table.rows() - 1, 2)), 1e-6);
 }
@@ -121,6 +122,7 @@ TEST(QuarterVehicleStop, RestsOnItsTyreAndDoesNotCreep) {
       for (std::size_t k = 0; k <= last; ++k)
         if (r.table.at(k, 0) >= 20.0)
           drift = std::max(drift, std::abs(r.table.at(k, 1) - r.table.at(last, 1)));
+      figure("quarter_vehicle_drift_" + name_of(c), drift);
       EXPECT_LT(drift, 1e-6) << name_of(c) << " " << step;
       const double weight = car_mass * earth_gravity * std::sin(std::atan(0.15));
       EXPECT_NEAR(r.table.at(last, 3) / rest_stiffness, weight / rest_stiffness, 1e-5);
@@ -168,6 +170,7 @@ TEST(ParkedVehicle, StaysInItsEquilibrium) {
       for (std::size_t k = 1; k <= 3; ++k)
         drift = std::max(drift, std::abs(r.table.at(last, k) - r.table.at(0, k)));
       for (std::size_t k = 4; k <= 7; ++k) load += r.table.at(last, k);
+      figure("parked_vehicle_drift_" + name_of(c), drift);
       EXPECT_LT(drift, 1e-6) << name_of(c) << " " << step;
       EXPECT_NEAR(load, 1200.0 * earth_gravity * std::cos(std::atan(0.15)), 1e-3);
     }

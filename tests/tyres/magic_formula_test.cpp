@@ -2,6 +2,10 @@
 // row within 1e-8 of the largest value of its column.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
 #include "tyres/tyre_table.hpp"
 
 namespace floatframe::test {
@@ -13,14 +17,30 @@ struct ReferenceSet {
   MagicForm form;
 };
 
-class MagicReference : public ::testing::TestWithParam<ReferenceSet> {};
-
 /// Compares a computed value with a column, if the table has it there.
-void compare(const TyreTable& table, std::size_t row, const std::string& column, double value) {
+void compare_cell(const TyreTable& table, std::size_t row, const std::string& column,
+                  double value) {
   if (!table.has(column) || std::isnan(table.at(row, column))) return;
   EXPECT_NEAR(value, table.at(row, column), 1e-8 * table.scale(column) + 1e-300)
       << column << " of row " << table.at(row, "id");
 }
+
+/// Keeps the largest deviation of its test, as part of the largest value of the column.
+class MagicReference : public ::testing::TestWithParam<ReferenceSet> {
+ protected:
+  void TearDown() override {
+    if (worst < 0.0) return;
+    std::printf("[ figure ] %s %s, %s %.3g\n", GetParam().name,
+                GetParam().form == MagicForm::book ? "book" : "manual",
+                ::testing::UnitTest::GetInstance()->current_test_info()->name(), worst);
+  }
+  void compare(const TyreTable& table, std::size_t row, const std::string& column, double value) {
+    compare_cell(table, row, column, value);
+    if (!table.has(column) || std::isnan(table.at(row, column))) return;
+    worst = std::max(worst, std::abs(value - table.at(row, column)) / table.scale(column));
+  }
+  double worst = -1.0;
+};
 
 MagicTyre tyre_of_row(const TirFile& file, const TyreTable& table, std::size_t row, MagicForm form,
                       MagicSide side = MagicSide::file) {
@@ -125,11 +145,11 @@ TEST(MagicFormula, RollsBackwardsAsTheMirrorImage) {
         steady_input(table.at(k, "Fz_N"), table.at(k, "Vcx"), table.at(k, "Vsx"),
                      table.at(k, "Vcy"), table.at(k, "gamma_deg") * degree);
     const MagicForces<double> f = magic_forces(tyre, in);
-    compare(table, k, "Fx", f.Fx);
-    compare(table, k, "Fy", f.Fy);
-    compare(table, k, "Mx", f.Mx);
-    compare(table, k, "My", f.My);
-    compare(table, k, "Mz", f.Mz);
+    compare_cell(table, k, "Fx", f.Fx);
+    compare_cell(table, k, "Fy", f.Fy);
+    compare_cell(table, k, "Mx", f.Mx);
+    compare_cell(table, k, "My", f.My);
+    compare_cell(table, k, "Mz", f.Mz);
   }
 }
 
