@@ -162,7 +162,7 @@ TyreLengths<B> limited_lengths(const typename Law::Keys& keys, const typename La
   return l;
 }
 
-/// (4) and (5). `l`: with lower bounds of the limits, which is enough for a tyre that does not slide.
+/// (4) and (5). `l`: with lower bounds of the limits, enough for a tyre that does not slide.
 template <class Law, class S, class B>
 void hold_slides(const typename Law::Keys& keys, const typename Law::Data& data,
                  const RollingMotion<S, B>& m, const S* states, TyreLengths<B> l,

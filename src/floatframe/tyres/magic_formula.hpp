@@ -20,8 +20,8 @@
 
 namespace floatframe {
 
-/// S: the scalar of the slips and of Fx, Fy; B: that of all else. With doubles for B derivatives are
-/// those of Fx and Fy over the slips alone.
+/// S: the scalar of the slips and of Fx, Fy; B: that of all else. With doubles for B derivatives
+/// are those of Fx and Fy over the slips alone.
 template <class S, class B = S>
 struct MagicInput {
   B load = 0.0;       ///< Fz [N]; none of the forces acts at zero and below
