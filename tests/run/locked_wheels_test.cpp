@@ -13,7 +13,7 @@
 namespace floatframe::test {
 namespace {
 
-constexpr double slope = 0.15, earth_gravity = 9.81;
+constexpr double hill = 0.15, fall = 9.81;
 
 struct LockedWheels {
   std::string tyre, road = "{friction: 1}";
@@ -30,7 +30,7 @@ std::string locked_wheels(const LockedWheels& m) {
       forces += fmt::format(
           "  {}{}: {{body: car, at: [{}, {}0.7, 0.295], road: r, damping: 3000, side: {}, {}}}\n",
           *front == '-' ? "r" : "f", side, front, *side == 'l' ? "" : "-", side, m.tyre);
-  const double normal = earth_gravity / std::hypot(1.0, m.slope);
+  const double normal = fall / std::hypot(1.0, m.slope);
   return fmt::format(
       R"(
 gravity: [{:.17g}, 0, {:.17g}]
@@ -69,7 +69,7 @@ TEST(LockedWheels, StandWhereTheyStoppedOnASlope) {
   for (const Coordinates c : both_coordinates)
     for (const double step : {0.005, 0.01}) {
       const std::string text = locked_wheels(
-          {.tyre = magic_formula, .slope = slope, .drift = 0.05, .step = step, .duration = 10.0});
+          {.tyre = magic_formula, .slope = hill, .drift = 0.05, .step = step, .duration = 10.0});
       Model model = model_of(text);
       model.simulation.coordinates = c;
       const RunResult r = completed_run(model);

@@ -1,8 +1,8 @@
 #pragma once
 // The law of a tyre that rolls, over any scalar; what is special of a kind is in its Law
 // (rolling_slips.hpp, with the states and the forces along the road).
-// Contact, its frame and its motion V_cx, V_cy, Omega: rolling_contact.hpp. On a carrier
-// (`spinning: false`) Omega is that of a wheel that rolls freely: Omega = V_cx/r_e, with r_e of it.
+// Contact, its frame and its motion V_cx, V_cy, Omega: rolling_contact.hpp. On a carrier, which
+// does not spin, Omega is that of a wheel that rolls freely: V_cx/r_e, with r_e of this Omega.
 // Wrench at the wheel centre, with the arm to the contact point:
 //   F = F_x e_x + F_y e_y + F_z n,  T = arm x F + M_x e_x + s M_y e_y + M_z n,
 //   F_z = load(d) + c ddot,  s = w/sqrt(w^2 + v_r^2), w = Omega r_e: the sense of rolling.

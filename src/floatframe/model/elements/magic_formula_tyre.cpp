@@ -1,5 +1,5 @@
 // Magic Formula 5.2, 6.1 and 6.2 with the coefficients of a tyre property file, in the contact and
-// with the states of rolling_tyre.hpp; the formulas are those of tyres/magic_formula.hpp and
+// with the states of rolling_slips.hpp; the formulas are those of tyres/magic_formula.hpp and
 // tyres/magic_radius.hpp.
 //   load        magic_load of the loaded radius R0 - d, camber and spin, without Fx and Fy: these
 //               take the part (q_fcx F_x/F_z0)^2 + (q_fcy F_y/F_z0)^2 of the load

@@ -1,4 +1,4 @@
-// TMeasy tyre (tyres/tmeasy.hpp) in the contact and with the states of rolling_tyre.hpp; ISO-W.
+// TMeasy tyre (tyres/tmeasy.hpp) in the contact and with the states of rolling_slips.hpp; ISO-W.
 //   load        a1 d + a2 d^2, a1 d in the air, whose slopes at pn and 2 pn are c1, c2:
 //               a2 = (c2^2 - c1^2)/(4 pn), a1 = sqrt(2 c1^2 - c2^2)
 //   radius      r_e = R - (1 - q) d, q = rolling_radius
