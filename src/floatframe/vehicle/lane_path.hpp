@@ -21,7 +21,7 @@
 namespace floatframe {
 
 /// Points from x = -20 m to the end of the track and the length of the vehicle beyond, in the axes
-/// of the track. `sideslip`: l [m]; `margin` [m], of a gate at most a quarter of what is free there.
+/// of the track. `sideslip`: l [m]; `margin` [m], at most a quarter of what is free.
 std::vector<PathPoint> lane_change_path(const VehicleOutline& vehicle, double sideslip = 0.0,
                                         double margin = 0.07);
 
