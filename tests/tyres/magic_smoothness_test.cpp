@@ -133,7 +133,9 @@ TEST(MagicForces, HaveNoSlopeOverTheSpeedAtRest) {
       return magic_forces(tyre, MagicInput<double>{4000.0, kappa, 0.01, 0.02, v, 2.0, 1.0}).Fy;
     };
     EXPECT_NEAR(f.Fy.v, 0.5 * (lateral(-1.0) + lateral(1.0)), 1e-9);
-    if (kappa != 0.0) EXPECT_GT(std::abs(lateral(1.0) - lateral(-1.0)), 100.0);
+    if (kappa != 0.0) {
+      EXPECT_GT(std::abs(lateral(1.0) - lateral(-1.0)), 100.0);
+    }
   }
 }
 

@@ -60,7 +60,7 @@ std::vector<Eigen::Vector2d> linear_step_steer(const SingleTrack& car, double v,
 // A driver who follows another path than the one straight ahead leaves the heading.
 TEST(TrimmedStart, EndsWhereTheVehicleRunsAway) {
   VehicleRun run(vehicle_setup(single_track_model(), "step-steer", driven, 20.0));
-  PathFollower follower(straight_path({0.0, 1e3}, 0.5), run.axles().wheelbase());
+  PathFollower follower(DrivenPath::straight({0.0, 1e3}, 0.5), run.axles().wheelbase());
   SpeedController controller(run.mass(), run.lowest_force(), run.highest_force());
   const std::string text = sentences_of([&] { drive_trimmed(run, follower, controller, 20.0); });
   EXPECT_TRUE(contains(text, "cannot be driven straight on at 20 m/s")) << text;

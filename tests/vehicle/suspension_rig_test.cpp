@@ -60,7 +60,7 @@ TEST(SuspensionRig, SwingAxleInClosedForm) {
       EXPECT_NEAR(a.left.force, 2000.0 * s / (0.5 * c), 1e-5);
     }
     // At the design height dF/dz = k/l^2; parabolas through points 1 cm apart.
-    EXPECT_NEAR(points[5].axles[0].left.rate, 2000.0 / 0.25, 8.0);
+    EXPECT_NEAR(*points[5].axles[0].left.rate, 2000.0 / 0.25, 8.0);
   }
 }
 
