@@ -229,8 +229,8 @@ struct Delay {
   double pade = 2.0;  ///< order of its Pade approximation in linear systems, a whole number
 };
 
-/// The road-wheel angle with which a vehicle follows a path in the axes of the world: a cubic
-/// spline through points, or a circle. The law and its gains are those of docs/vehicle.md.
+/// The road-wheel angle with which a vehicle follows a path, in the axes of the world: a
+/// cubic spline through points, or a circle.
 struct PathFollowing {
   SignalDescription x, y;       ///< of the point that follows the path [m]
   SignalDescription vx, vy;     ///< its velocity [m/s]
