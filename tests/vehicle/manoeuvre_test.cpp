@@ -173,7 +173,8 @@ TEST(LaneChange, PathBendsLeastWhereItTouches) {
 TEST(LaneChange, IsDrivenSlowly) {
   VehicleNeeds needs = driven;
   needs.width = true;
-  VehicleRun run(vehicle_setup(single_track_model(), "double-lane-change", needs, 8.0));
+  VehicleRun run(vehicle_setup(single_track_model({{"hold", "1e5"}, {"v", "8"}}),
+                               "double-lane-change", needs, 8.0));
   const LaneChangeResult r = lane_change(run, 8.0);
   EXPECT_NEAR(r.entry_speed, 8.0, 0.05);
   EXPECT_NEAR(r.exit_speed, 8.0, 0.05);

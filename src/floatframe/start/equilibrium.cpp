@@ -11,6 +11,7 @@
 #include "floatframe/integrator/load_iteration.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/sampling.hpp"
+#include "floatframe/start/initial_state.hpp"
 #include "floatframe/start/statics_equations.hpp"
 
 namespace floatframe {
@@ -235,6 +236,20 @@ Best approach_held(RelativeFormulation& f, StaticsEquations& statics, const Best
   return none;
 }
 
+/// Drawn far from its road a vehicle may be found as it stands on two wheels: if an equilibrium is
+/// unstable, the one that lies downhill from the start, if there is one.
+template <class Begin>
+Best below(RelativeFormulation& f, StaticsEquations& statics, const Best& found, const Begin& begin,
+           int& iterations) {
+  f.element_states().give(found.z);
+  f.element_states().rest();
+  if (unstable_equilibrium(f, found.q, found.lambda).empty()) return found;
+  Best lower = begin();
+  const Best from = lower;
+  descend(f, statics, from.q, from.lambda, iterations, lower);
+  return lower.accepted() ? lower : found;
+}
+
 Best search(RelativeFormulation& f, StaticsEquations& statics, const VecX& q, int& iterations) {
   const VecX lambda = VecX::Zero(f.constraints()), z = f.element_states().values();
   const auto begin = [&] {
@@ -258,6 +273,7 @@ Best search(RelativeFormulation& f, StaticsEquations& statics, const VecX& q, in
         best = begin();
         best.rolling = rolled;
         approach(f, statics, q, lambda, iterations, best);
+        if (best.accepted()) best = below(f, statics, best, begin, iterations);
       }
     }
   }

@@ -228,7 +228,7 @@ constinit const ElementKind path_follower_element = [] {
   kind.build = path_follower_build;
   kind.states = path_follower_states;
   kind.values = [](const ElementKeys&) {
-    return std::vector<ElementValue>{{"angle", "rad"}, {"offset", "m"}};
+    return std::vector<ElementValue>{{"angle", "-"}, {"offset", "-"}};
   };
   kind.start = path_follower_start;
   kind.settle = path_follower_settle;
