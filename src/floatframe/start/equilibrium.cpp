@@ -273,9 +273,10 @@ Best search(RelativeFormulation& f, StaticsEquations& statics, const VecX& q, in
         best = begin();
         best.rolling = rolled;
         approach(f, statics, q, lambda, iterations, best);
-        if (best.accepted()) best = below(f, statics, best, begin, iterations);
       }
     }
+    if (rolling && best.accepted() && best.push.isZero(0.0))
+      best = below(f, statics, best, begin, iterations);
   }
   if (!best.accepted()) descend(f, statics, q, lambda, iterations, best);
   f.element_states().give(best.z);
