@@ -99,10 +99,9 @@ TEST(FlatRoad, IsAskedForItsHeights) {
   EXPECT_EQ(road_says("{profile: [[0, 0]]}"), "no error");
   EXPECT_EQ(road_says("{height: 0 * x}"), "no error");
   EXPECT_EQ(road_says("{friction: 0.3}"), "no error");
-  for (const char* road :
-       {"{profile: [[0, 0], [10, 0], [11, 0.1]]}", "{height: 0.01 * sin(y)}",
-        "{tracks: {class: B, length: 300, width: 1.43, seed: 3, start: 5}}",
-        "{bumps: [{start: 20.2, length: 0.5, height: 0.02}]}"})
+  for (const char* road : {"{profile: [[0, 0], [10, 0], [11, 0.1]]}", "{height: 0.01 * sin(y)}",
+                           "{tracks: {class: B, length: 300, width: 1.43, seed: 3, start: 5}}",
+                           "{bumps: [{start: 20.2, length: 0.5, height: 0.02}]}"})
     EXPECT_TRUE(contains(road_says(road), "roads.road: found heights between")) << road;
   const char* const ice = "{patches: [{x: [10, 100], y: [-5, 0], friction: 0.2}]}";
   EXPECT_TRUE(contains(road_says(ice), "roads.road: found patches of friction"));
