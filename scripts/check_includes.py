@@ -14,7 +14,7 @@ import sys
 # room -> rooms it may include. CONTRIBUTING.md draws the same picture.
 FE = {"core", "math", "fe"}
 DYNAMICS = {"core", "math", "formulas", "roads", "body", "inertia", "description", "model", "formulation", "integrator"}
-RUNS = {"loops", "start", "reactions", "stepping", "run"}
+RUNS = {"loops", "tangents", "start", "reactions", "stepping", "run"}
 # The library floatframe_tools (src/CMakeLists.txt). Only the command line uses it besides.
 TOOLS = {"advice", "history", "results", "page", "export", "realtime", "sweep", "validation", "vehicle", "analyses"}
 HEADERS_OF_TOOLS = {"analysis.hpp", "history.hpp", "realtime.hpp", "sweep.hpp", "floatframe.hpp"}
@@ -51,9 +51,10 @@ ALLOWED = {
     "integrator": {"core", "math", "formulas", "roads", "body", "inertia", "description", "model", "formulation"},
     # From the model at rest to results: each uses those before it.
     "loops": DYNAMICS,
-    "start": DYNAMICS | {"loops"},
+    "tangents": DYNAMICS | {"loops"},
+    "start": DYNAMICS | {"loops", "tangents"},
     "reactions": DYNAMICS | {"start"},
-    "stepping": DYNAMICS | {"loops", "start", "reactions"},
+    "stepping": DYNAMICS | {"loops", "tangents", "start", "reactions"},
     "run": DYNAMICS | {"loops", "start", "stepping"},
     "linear": DYNAMICS | RUNS,
     "rotors": DYNAMICS | RUNS | {"linear"},
@@ -79,7 +80,7 @@ ALLOWED = {
 # Rooms, and single files, that public headers may reach.
 PUBLIC = {"core", "math", "formulas", "roads", "body", "inertia", "fe", "reduction", "formats", "formats/body_file", "formats/sid", "parts", "description",
           "model", "model_file",
-          "formulation/counts.hpp", "loops", "start", "stepping", "run", "linear", "rotors", "advice", "history", "page", "results", "analyses", "realtime", "sweep"}
+          "formulation/counts.hpp", "loops", "tangents", "start", "stepping", "run", "linear", "rotors", "advice", "history", "page", "results", "analyses", "realtime", "sweep"}
 FOREIGN = re.compile(r'\s*#\s*include\s*<(?!floatframe/)(?!Eigen/)([^>]*[./-][^>]*)>')
 # What programs and modules beside the library see of it.
 OUTSIDE = {"main": {"apps/command_line.hpp", "bench/bench_command.hpp"}, "mpi": {"sweep/ranks.hpp"},

@@ -25,7 +25,7 @@ SOURCES = ROOT / "src" / "floatframe"
 COUNTED = "floatframe_counted_steps"
 COUNTED_START = "floatframe_counted_start"
 COMPILER = "GNU 12"
-ROOMS_OF_RUNS = ["loops", "start", "reactions", "stepping", "run", "linear", "rotors", "advice"]
+ROOMS_OF_RUNS = ["loops", "tangents", "start", "reactions", "stepping", "run", "linear", "rotors", "advice"]
 ROOMS_OF_STEPS = {"math", "inertia", "model", "formulation", "integrator", "start", "reactions", "stepping", "run"}
 LISTS = {
     "joint": ("description/joint_list.hpp", "JointType"),

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "floatframe/reactions/reaction_solver.hpp"
-#include "floatframe/start/linearization.hpp"
 #include "floatframe/start/statics.hpp"
 #include "floatframe/stepping/stepper.hpp"
+#include "floatframe/tangents/linearization.hpp"
 #include "support/allocation_counter.hpp"
 #include "support/body_balance.hpp"
 #include "support/descriptions.hpp"

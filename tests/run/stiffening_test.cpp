@@ -15,7 +15,7 @@
 #include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/run/results.hpp"
 #include "floatframe/start/initial_state.hpp"
-#include "floatframe/start/small_motions.hpp"
+#include "floatframe/tangents/small_motions.hpp"
 #include "support/error_of.hpp"
 #include "support/figures.hpp"
 #include "support/model_text.hpp"

@@ -12,9 +12,9 @@
 #include "floatframe/loops/run_error.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/run/range_watch.hpp"
-#include "floatframe/start/mass_scale.hpp"
-#include "floatframe/start/small_motions.hpp"
 #include "floatframe/start/start_up.hpp"
+#include "floatframe/tangents/mass_scale.hpp"
+#include "floatframe/tangents/small_motions.hpp"
 
 namespace floatframe {
 namespace {

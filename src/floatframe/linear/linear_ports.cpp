@@ -12,9 +12,9 @@
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/element_outputs.hpp"
 #include "floatframe/model/joint_motion.hpp"
-#include "floatframe/start/mass_scale.hpp"
 #include "floatframe/stepping/samples.hpp"
 #include "floatframe/stepping/simulation_options.hpp"
+#include "floatframe/tangents/mass_scale.hpp"
 
 namespace floatframe {
 namespace {

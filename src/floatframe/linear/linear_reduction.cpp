@@ -9,7 +9,7 @@
 #include "floatframe/math/dense.hpp"
 #include "floatframe/math/lowest_motions.hpp"
 #include "floatframe/run/results.hpp"
-#include "floatframe/start/mass_scale.hpp"
+#include "floatframe/tangents/mass_scale.hpp"
 
 namespace floatframe {
 

@@ -17,7 +17,7 @@
 
 #include "floatframe/linear/counted_stiffening.hpp"
 #include "floatframe/linear/linear_system.hpp"
-#include "floatframe/start/small_motions.hpp"
+#include "floatframe/tangents/small_motions.hpp"
 
 namespace floatframe {
 

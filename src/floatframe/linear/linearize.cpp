@@ -3,10 +3,10 @@
 #include "floatframe/formulation/owners.hpp"
 #include "floatframe/linear/linear_reduction.hpp"
 #include "floatframe/model/sampling.hpp"
-#include "floatframe/start/small_motions.hpp"
 #include "floatframe/start/start_up.hpp"
 #include "floatframe/start/system_state.hpp"
 #include "floatframe/stepping/samples.hpp"
+#include "floatframe/tangents/small_motions.hpp"
 
 namespace floatframe {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "floatframe/loops/run_error.hpp"
 #include "floatframe/math/dense.hpp"
-#include "floatframe/start/linearization.hpp"
+#include "floatframe/tangents/linearization.hpp"
 
 namespace floatframe {
 namespace {

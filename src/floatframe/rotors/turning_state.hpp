@@ -3,7 +3,7 @@
 #include "floatframe/linear/linear_reduction.hpp"
 #include "floatframe/rotors/steady_turning.hpp"
 #include "floatframe/rotors/turning_model.hpp"
-#include "floatframe/start/small_motions.hpp"
+#include "floatframe/tangents/small_motions.hpp"
 
 namespace floatframe {
 

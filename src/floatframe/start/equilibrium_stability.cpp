@@ -16,8 +16,8 @@
 #include "floatframe/math/dense.hpp"
 #include "floatframe/start/initial_state.hpp"
 #include "floatframe/start/light_motion.hpp"
-#include "floatframe/start/linearization.hpp"
-#include "floatframe/start/small_motions.hpp"
+#include "floatframe/tangents/linearization.hpp"
+#include "floatframe/tangents/small_motions.hpp"
 
 namespace floatframe {
 namespace {

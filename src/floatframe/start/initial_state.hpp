@@ -20,10 +20,10 @@
 #include "floatframe/loops/close_loops.hpp"
 #include "floatframe/loops/run_error.hpp"
 #include "floatframe/loops/start_report.hpp"
-#include "floatframe/start/linearization.hpp"
-#include "floatframe/start/mass_scale.hpp"
 #include "floatframe/start/massless.hpp"
-#include "floatframe/start/overflow.hpp"
+#include "floatframe/tangents/linearization.hpp"
+#include "floatframe/tangents/mass_scale.hpp"
+#include "floatframe/tangents/overflow.hpp"
 
 namespace floatframe {
 

@@ -5,7 +5,7 @@
 // held by modes or forces are regular: sparse, as in steps. T^-1 maps a massless direction to 1 /
 // (s k); T^-1 M removes it from an acceleration and keeps the directions with mass, with an error
 // of s k / m, which the passes correct.
-#include "floatframe/start/mass_scale.hpp"
+#include "floatframe/tangents/mass_scale.hpp"
 
 namespace floatframe {
 

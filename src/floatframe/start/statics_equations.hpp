@@ -7,7 +7,7 @@
 
 #include "floatframe/math/dense.hpp"
 #include "floatframe/start/initial_state.hpp"
-#include "floatframe/start/linearization.hpp"
+#include "floatframe/tangents/linearization.hpp"
 
 namespace floatframe {
 

@@ -7,9 +7,9 @@
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/lift_checks.hpp"
 #include "floatframe/start/light_motion.hpp"
-#include "floatframe/start/overflow.hpp"
 #include "floatframe/start/positive_mass.hpp"
 #include "floatframe/stepping/stepper.hpp"
+#include "floatframe/tangents/overflow.hpp"
 
 namespace floatframe {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/formulation/owners.hpp"
-#include "floatframe/start/overflow.hpp"
+#include "floatframe/tangents/overflow.hpp"
 
 namespace floatframe {
 namespace {

@@ -1,12 +1,12 @@
-#include "floatframe/start/element_tangents.hpp"
+#include "floatframe/tangents/element_tangents.hpp"
 
 #include <algorithm>
 
 #include "floatframe/core/enum_index.hpp"
 #include "floatframe/math/dense.hpp"
 #include "floatframe/model/element_keys.hpp"
-#include "floatframe/start/linearization.hpp"
-#include "floatframe/start/small_motions.hpp"
+#include "floatframe/tangents/linearization.hpp"
+#include "floatframe/tangents/small_motions.hpp"
 
 namespace floatframe {
 namespace {

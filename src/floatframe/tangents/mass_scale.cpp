@@ -1,4 +1,4 @@
-#include "floatframe/start/mass_scale.hpp"
+#include "floatframe/tangents/mass_scale.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // The equations of motion near a state against closed forms, and what every system must obey.
-#include "floatframe/start/linearization.hpp"
+#include "floatframe/tangents/linearization.hpp"
 
 #include <gtest/gtest.h>
 
-#include "floatframe/start/small_motions.hpp"
+#include "floatframe/tangents/small_motions.hpp"
 #include "support/linear_models.hpp"
 #include "support/model_text.hpp"
 #include "support/random_model.hpp"

@@ -1,4 +1,4 @@
-#include "floatframe/start/overflow.hpp"
+#include "floatframe/tangents/overflow.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "floatframe/start/small_motions.hpp"
+#include "floatframe/tangents/small_motions.hpp"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,10 @@
 
 #include "floatframe/core/memory_room.hpp"
 #include "floatframe/loops/run_error.hpp"
-#include "floatframe/start/element_tangents.hpp"
-#include "floatframe/start/linearization.hpp"
-#include "floatframe/start/mass_scale.hpp"
-#include "floatframe/start/overflow.hpp"
+#include "floatframe/tangents/element_tangents.hpp"
+#include "floatframe/tangents/linearization.hpp"
+#include "floatframe/tangents/mass_scale.hpp"
+#include "floatframe/tangents/overflow.hpp"
 
 namespace floatframe {
 namespace {

@@ -1,6 +1,6 @@
 // Exact tangents of elements in K and C: a spring across a swinging arm in closed form, to more
 // digits than differences have; at an edge of a law, differences of everything.
-#include "floatframe/start/element_tangents.hpp"
+#include "floatframe/tangents/element_tangents.hpp"
 
 #include <gtest/gtest.h>
 

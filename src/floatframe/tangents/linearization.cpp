@@ -1,10 +1,10 @@
-#include "floatframe/start/linearization.hpp"
+#include "floatframe/tangents/linearization.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "floatframe/start/element_tangents.hpp"
-#include "floatframe/start/overflow.hpp"
+#include "floatframe/tangents/element_tangents.hpp"
+#include "floatframe/tangents/overflow.hpp"
 
 namespace floatframe {
 
