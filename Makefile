@@ -79,7 +79,7 @@ random-suites: build
 	FLOATFRAME_RANDOM=$(CASES) build/tests/model_tests --gtest_brief=1 --gtest_filter='Topology.IsThat*'
 
 # The rooms of steps with their asserts, which a release build leaves out.
-ROOMS_OF_STEPS := math inertia model formulation integrator start reactions stepping run
+ROOMS_OF_STEPS := math inertia model formulation integrator tangents start reactions stepping run
 test-contracts: install-packages
 	cmake --preset contracts
 	cmake --build build-contracts --parallel $(JOBS) --target $(ROOMS_OF_STEPS:%=%_tests)

@@ -26,7 +26,7 @@ COUNTED = "floatframe_counted_steps"
 COUNTED_START = "floatframe_counted_start"
 COMPILER = "GNU 12"
 ROOMS_OF_RUNS = ["loops", "tangents", "start", "reactions", "stepping", "run", "linear", "rotors", "advice"]
-ROOMS_OF_STEPS = {"math", "inertia", "model", "formulation", "integrator", "start", "reactions", "stepping", "run"}
+ROOMS_OF_STEPS = {"math", "inertia", "model", "formulation", "integrator", "tangents", "start", "reactions", "stepping", "run"}
 LISTS = {
     "joint": ("description/joint_list.hpp", "JointType"),
     "constraint": ("model/constraint_list.hpp", "ConstraintType"),

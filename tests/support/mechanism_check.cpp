@@ -204,6 +204,33 @@ bool agree_before_stops(const Model& model, const std::vector<Level>& levels) {
   return false;
 }
 
+/// The largest acceleration of the first ten instants.
+double first_acceleration(const Model& model, const ResultTable& t) {
+  double most = 0.0;
+  for (std::size_t c = 0; c < model.outputs.size(); ++c)
+    if (model.outputs[c].type == OutputType::acceleration)
+      for (std::size_t r = 1; r < std::min<std::size_t>(t.rows(), 11); ++r)
+        most = std::max(most, std::abs(t.at(r, c + 1)));
+  return most;
+}
+
+/// Whether errors halve with the step while accelerations double.
+bool begins_unbalanced(const Model& model, const std::vector<Level>& levels,
+                       const std::vector<double>& differences) {
+  const auto doubles = [&](const Outcome& before, const Outcome& now) {
+    const double ratio = first_acceleration(model, now.result.table) /
+                         first_acceleration(model, before.result.table);
+    return ratio > 1.7 && ratio < 2.3;
+  };
+  for (std::size_t k = 1; k < levels.size(); ++k) {
+    const double ratio = differences[k - 1] / differences[k];
+    if (!(ratio > 1.8 && ratio < 2.2) || !doubles(levels[k - 1].relative, levels[k].relative) ||
+        !doubles(levels[k - 1].absolute, levels[k].absolute))
+      return false;
+  }
+  return levels.size() > 2 && differences.back() < meaningful;
+}
+
 std::string list(const std::vector<double>& values) {
   return fmt::format("{:.3g}", fmt::join(values, ", "));
 }
@@ -211,11 +238,11 @@ std::string list(const std::vector<double>& values) {
 }  // namespace
 
 const char* word(Verdict v) {
-  static const char* const words[] = {"equal",      "second order",  "second order at a finer step",
-                                      "kinked",     "refused",       "stopped",
-                                      "weightless", "out of range",  "split",
-                                      "no reason",  "not finite",    "wrong order",
-                                      "energy",     "not repeatable"};
+  static const char* const words[] = {"equal",       "second order", "second order at a finer step",
+                                      "kinked",      "refused",      "stopped",
+                                      "weightless",  "unbalanced",   "out of range",
+                                      "split",       "no reason",    "not finite",
+                                      "wrong order", "energy",       "not repeatable"};
   return words[static_cast<int>(v)];
 }
 
@@ -322,6 +349,7 @@ Judgement judge(const Mechanism& mechanism) {
     return verdict(weightless ? Verdict::weightless : Verdict::out_of_range, figures);
   }
   if (only_massless_differ(model, levels)) return verdict(Verdict::weightless, figures);
+  if (begins_unbalanced(model, levels, j.differences)) return verdict(Verdict::unbalanced, figures);
   if (!std::isfinite(last)) {
     // One may pass where the other does not, if they agree where both do.
     const auto apart = [](double d) { return std::isfinite(d) && d > same; };

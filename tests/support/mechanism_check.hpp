@@ -22,6 +22,9 @@
 //                  that time d falls by 3 to 5 at some halving, or is below 1e-8. Or all run, and
 //                  the same holds to the end of all but bodies without any mass, which forces that
 //                  vanish leave where they are
+//   unbalanced     a damped freedom without mass begins at a speed that its forces do not balance,
+//                  which steps without damping never forget: d halves with the step, while
+//                  accelerations of the first instants double, in both formulations
 //   out_of_range   a run says that a body deforms or bends too far for linear modes, which soon
 //                  grow without bound: the same until then; or that it turns too far in one step:
 //                  the same until half of that time. What a run does after it, it may also stop at
@@ -42,6 +45,7 @@ enum class Verdict {
   refused,
   stopped,
   weightless,
+  unbalanced,
   out_of_range,
   split,           ///< runs in one formulation, is refused or stops in the other
   no_reason,       ///< refused without a sentence, or by an exception of another kind
