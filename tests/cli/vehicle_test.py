@@ -132,6 +132,12 @@ class Vehicle(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertNotIn("the equilibrium is unstable", done.stdout + done.stderr)
 
+    def test_the_iltis_passes_the_double_lane_change(self):
+        found = vehicle(ROOT / "examples" / "iltis" / "handling.yaml", "--manoeuvre", "double-lane-change", "--speed", "60km/h")
+        self.assertEqual(found.returncode, 0, found.stderr)
+        self.assertIn("(ISO 3888-2), passed", found.stdout)
+        self.assertIn("speed 60.00 km/h at the entry", found.stdout)
+
     def test_what_the_section_lacks(self):
         text = MODEL.read_text()
         short = self.folder / "short.yaml"
