@@ -149,5 +149,22 @@ TEST(RollingTyre, IsFiniteAtNoLoadFrictionAndSpeed) {
       }
 }
 
+// There are no slopes of states of an element that has none.
+TEST(RollingTyre, AtRestWithoutStatesItReadsNoSlopesOfStates) {
+  const double of_others[] = {std::nan(""), std::nan("")};
+  for (const ElementType type : rolling_laws) {
+    const ElementExample x = example_of(type, RollingRegime::direct);
+    if (x.element.states > 0) continue;
+    Efforts out(x.markers.size(), 0, static_cast<std::size_t>(x.element.further()));
+    const Placed placed(x);
+    Ports ports = placed.ports();
+    ports.rest_slopes = of_others;
+    evaluate_element(ports, out);
+    ASSERT_GT(out.row_count, 1);
+    for (int k = 0; k < out.row_count; ++k)
+      EXPECT_TRUE(std::isfinite(out.rows[k].k) && std::isfinite(out.rows[k].c)) << k;
+  }
+}
+
 }  // namespace
 }  // namespace floatframe::test

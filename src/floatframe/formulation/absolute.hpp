@@ -92,6 +92,7 @@ class AbsoluteFormulation final : public Formulation {
     q = q0 + x;
   }
   void settle(const VecX& q0, VecX& x) const noexcept override { kinematics_.settle(q0, x); }
+  bool has_rotations(const VecX& q) const noexcept override { return kinematics_.has_rotations(q); }
   void advance(VecX& x, const VecX& delta) const noexcept override {
     assert(calls_.has(CallOrder::positions));
     kinematics_.advance(x, delta);

@@ -214,6 +214,16 @@ void AbsoluteKinematics::settle_of(const VecX& q0, VecX& x) const noexcept {
   }
 }
 
+bool AbsoluteKinematics::has_rotations(const VecX& q) const noexcept {
+  assert(q.size() == size_);
+  for (const AbsoluteBody& b : bodies_) {
+    Mat3 A;
+    for (int c = 0; c < 3; ++c) A.col(c) = q.segment<3>(b.axis(c));
+    if (!is_rotation(A)) return false;
+  }
+  return true;
+}
+
 void AbsoluteKinematics::advance(VecX& x, const VecX& delta) const noexcept {
   assert(x.size() == size_ && delta.size() == size_);
   stiffens_ ? advance_of<true>(x, delta) : advance_of<false>(x, delta);

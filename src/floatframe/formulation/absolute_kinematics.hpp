@@ -87,6 +87,8 @@ class AbsoluteKinematics {
   const VecX& accelerations() const noexcept { return a_; }
   /// Makes the axes of q0 + x orthonormal and moves the outer points to their bodies.
   void settle(const VecX& q0, VecX& x) const noexcept;
+  /// The axes of its bodies are orthonormal.
+  bool has_rotations(const VecX& q) const noexcept;
   /// From the present positions by increments that keep (1), (2): A rotates.
   void advance(VecX& x, const VecX& delta) const noexcept;
 

@@ -105,6 +105,8 @@ class Formulation {
 
   virtual int velocities() const noexcept = 0;
   virtual int configurations() const noexcept = 0;
+  /// The rotations in the configuration numbers are rotations, to 1e-6.
+  virtual bool has_rotations(const VecX& q) const noexcept = 0;
   int constraints() const noexcept { return constraint_set_.count(); }
   virtual void stepping(bool on, bool accepted = true) noexcept = 0;
   virtual void positions(double t, const VecX& q) noexcept = 0;

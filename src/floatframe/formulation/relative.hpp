@@ -96,6 +96,7 @@ class RelativeFormulation final : public Formulation {
   void constraint_forces(const VecX& w, VecX& out) noexcept override;
   void add_wrenches(const std::vector<int>& markers, const std::vector<Wrench>& wrenches,
                     VecX& out) noexcept override;
+  bool has_rotations(const VecX& q) const noexcept override { return tree_.has_rotations(q); }
   void retract(const VecX& q0, const VecX& x, VecX& q) const noexcept override {
     tree_.retract(q0, x, q);
   }

@@ -206,6 +206,15 @@ void TreeKinematics::retract(const VecX& q0, const VecX& x, VecX& q) const noexc
   }
 }
 
+bool TreeKinematics::has_rotations(const VecX& q) const noexcept {
+  assert(q.size() == nq_);
+  for (const TreeBody& b : bodies_) {
+    const int rotation = joint_kind(b.type).rotation_vector;
+    if (rotation >= 0 && !is_unit(Eigen::Vector4d(q.segment<4>(b.iq + rotation)))) return false;
+  }
+  return true;
+}
+
 void TreeKinematics::advance(VecX& x, const VecX& delta) const noexcept {
   assert(x.size() == nv_ && delta.size() == nv_);
   for (const TreeBody& b : bodies_) {

@@ -139,6 +139,8 @@ class TreeKinematics {
   void accelerations(const VecX& a) noexcept;
   /// q = q0 (+) x: rotation vectors act on quaternions.
   void retract(const VecX& q0, const VecX& x, VecX& q) const noexcept;
+  /// Its quaternions have unit length.
+  bool has_rotations(const VecX& q) const noexcept;
   /// x such that q0 (+) x = (q0 (+) x_old) (+) delta, in place.
   void advance(VecX& x, const VecX& delta) const noexcept;
 

@@ -39,7 +39,8 @@ void add_rolling_rows(const Ports& in, const RollingContact<double>& c, double s
   };
   row(c.n, stiffness / upright, damping / upright);
   const Mat2 D = damping_in_road(in, slopes);
-  const double *rest = in.rest_slopes, k_x = rest ? rest[0] * slopes.of.F_x.d[0] : 0.0,
+  const double *rest = in.element.states > 0 ? in.rest_slopes : nullptr,
+               k_x = rest ? rest[0] * slopes.of.F_x.d[0] : 0.0,
                k_y = rest ? rest[1] * slopes.of.F_y.d[1] : 0.0;
   if (spinning) row(c.e_x, std::max(0.0, k_x), std::max(0.0, D(0, 0)));
   row(c.e_y, std::max(0.0, k_y), std::max(0.0, D(1, 1)));

@@ -47,10 +47,10 @@ ModeSet craig_bampton_set(const Fixed& fixed, const Eigenmodes& normal,
   const auto nb = static_cast<Eigen::Index>(names.size()), nn = normal.omega.size();
   ModeSet set;
   set.X.resize(normal.shapes.rows(), nb + nn);
-  set.X.leftCols(nb) = fixed.constraint_modes();
+  if (nb > 0) set.X.leftCols(nb) = fixed.constraint_modes();
   set.X.rightCols(nn) = normal.shapes;
   set.K = MatX::Zero(nb + nn, nb + nn);
-  set.K.topLeftCorner(nb, nb) = fixed.guyan_stiffness(set.X.leftCols(nb));
+  if (nb > 0) set.K.topLeftCorner(nb, nb) = fixed.guyan_stiffness(set.X.leftCols(nb));
   set.K.diagonal().tail(nn) = normal.omega.cwiseAbs2();
   set.frequencies = normal.frequencies();
   for (Eigen::Index a = 0; a < nn; ++a) names.push_back("normal " + std::to_string(a + 1));

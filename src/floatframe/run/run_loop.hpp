@@ -223,8 +223,9 @@ class Run {
   }
 
   bool resume(const RunCheckpoint& checkpoint) {
-    const RunMemory m = from_checkpoint(checkpoint, identity(), steps_.memory(), o_.step,
-                                        joints_ ? joints_->size() : 0, planned_, watch_);
+    const RunMemory m =
+        from_checkpoint(checkpoint, identity(), steps_.memory(), steps_.formulation(), o_.step,
+                        joints_ ? joints_->size() : 0, planned_, watch_);
     made_ = m.made;
     steps_.set_memory(m.steps);
     result_.summary.cpu = m.cpu;

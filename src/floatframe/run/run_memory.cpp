@@ -72,7 +72,8 @@ void serialize_memory(StateWriter& s, const RunIdentity& identity, RunMemory& me
 }
 
 RunMemory serialize_memory(StateReader& s, const RunIdentity& identity, const StepperMemory& own,
-                           double step, std::size_t joints, std::int64_t planned) {
+                           const Formulation& f, double step, std::size_t joints,
+                           std::int64_t planned) {
   RunIdentity found(identity.size());
   for (auto& [name, value] : found) {
     s(name);
@@ -85,7 +86,7 @@ RunMemory serialize_memory(StateReader& s, const RunIdentity& identity, const St
     refuse(ErrorCode::mismatch, text);
   RunMemory memory;
   serialize_run(s, memory);
-  if (const std::string text = memory_complaint(memory.steps, own, step); !text.empty())
+  if (const std::string text = memory_complaint(memory.steps, own, f, step); !text.empty())
     refuse(ErrorCode::mismatch, text);
   if (memory.made != memory.steps.since_base || memory.made >= planned ||
       memory.joints.size() != joints || !all_finite(memory.joints) || !(memory.cpu >= 0.0) ||

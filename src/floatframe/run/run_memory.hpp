@@ -39,7 +39,8 @@ void serialize_memory(StateWriter& s, const RunIdentity& identity, RunMemory& me
 /// Throws InputError if the identity differs or the memory is not that of a run of `planned` steps
 /// of that size, with this memory and number of joint coordinates.
 RunMemory serialize_memory(StateReader& s, const RunIdentity& identity, const StepperMemory& own,
-                           double step, std::size_t joints, std::int64_t planned);
+                           const Formulation& f, double step, std::size_t joints,
+                           std::int64_t planned);
 
 inline constexpr const char* checkpoint_name = "the checkpoint";
 
@@ -56,10 +57,10 @@ RunCheckpoint to_checkpoint(const RunIdentity& identity, RunMemory& memory,
 /// Fills `watch`. See `walk_memory` for its exceptions.
 template <class Watch>
 RunMemory from_checkpoint(const RunCheckpoint& checkpoint, const RunIdentity& identity,
-                          const StepperMemory& own, double step, std::size_t joints,
-                          std::int64_t planned, std::optional<Watch>& watch) {
+                          const StepperMemory& own, const Formulation& f, double step,
+                          std::size_t joints, std::int64_t planned, std::optional<Watch>& watch) {
   StateReader in(checkpoint.bytes, checkpoint_name);
-  RunMemory memory = serialize_memory(in, identity, own, step, joints, planned);
+  RunMemory memory = serialize_memory(in, identity, own, f, step, joints, planned);
   if (watch) watch->serialize(in);
   if (!in.at_end())
     throw InputError(ErrorCode::damaged,

@@ -42,7 +42,8 @@ bool all_finite(Numbers v) noexcept {
   return true;
 }
 
-std::string memory_complaint(const StepperMemory& d, const StepperMemory& own, double step) {
+std::string memory_complaint(const StepperMemory& d, const StepperMemory& own, const Formulation& f,
+                             double step) {
   for (const MemoryNumbers& x : std::initializer_list<MemoryNumbers>{
            {"coordinates", numbers(d.state.q), numbers(own.state.q)},
            {"velocities", numbers(d.state.v), numbers(own.state.v)},
@@ -58,6 +59,7 @@ std::string memory_complaint(const StepperMemory& d, const StepperMemory& own, d
       return fmt::format("is damaged: {} of another number", x.name);
     if (!all_finite(x.given)) return fmt::format("is damaged: {} that are not finite", x.name);
   }
+  if (!f.has_rotations(d.state.q)) return "is damaged: coordinates that are no rotations";
   if (d.force_branches.size() != own.force_branches.size())
     return "is damaged: branches of forces of another number";
   for (const std::int64_t branch : d.force_branches)

@@ -10,7 +10,8 @@ namespace floatframe {
 
 bool all_finite(std::span<const double> numbers) noexcept;
 
-/// Empty, or "is damaged: ..."; `own`: the memory that it would replace.
-std::string memory_complaint(const StepperMemory& given, const StepperMemory& own, double step);
+/// Empty, or "is damaged: ..."; `own`: the memory of this formulation that it would replace.
+std::string memory_complaint(const StepperMemory& given, const StepperMemory& own,
+                             const Formulation& f, double step);
 
 }  // namespace floatframe

@@ -82,7 +82,8 @@ std::string Simulation::Engine::complaint(const SimulationState::Data& d,
     if (!(x.given == x.own))
       return fmt::format("was made with another option '{}': found {:g}, this simulation has {:g}",
                          x.name, x.given, x.own);
-  if (const std::string text = memory_complaint(d.steps, own.steps, d.step); !text.empty())
+  if (const std::string text = memory_complaint(d.steps, own.steps, steps_.formulation(), d.step);
+      !text.empty())
     return text;
   const auto damaged = [](const char* name, const char* what) {
     return fmt::format("is damaged: {} {}", name, what);
