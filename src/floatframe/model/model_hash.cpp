@@ -102,11 +102,12 @@ class ModelHash {
   void add(const SharedFormula& f) {
     if (!f) return;
     add(f->text);
+    for (const FormulaStep& step : f->steps) add(step.number);  // also where the text is older
     for (const auto& curve : f->curves) add(*curve);
     for (const auto& grid : f->grids) all(grid->x, grid->y, grid->values);
   }
   void add(const CoordinateTerm& t) { all(t.joint, t.coordinate, t.factor); }
-  void add(const ForceFunction& f) { add(f.identity()); }
+  void add(const ForceFunction& f) { all(f.identity(), f.formula()); }
   void add(const Signal& s) {
     const auto& [function, input, link, given, differentiated, local] = s;
     all(function, input, link, given);

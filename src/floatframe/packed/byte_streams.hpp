@@ -65,6 +65,9 @@ class ByteWriter {
     for (const char c : x) bytes.push_back(std::byte(c));
   }
   void require(bool /*good*/, const char* /*what*/) const {}
+  /// Without the texts of formulas, in which numbers of the file stand: two models of the same
+  /// structure then differ in their doubles alone.
+  bool formula_texts = true;
   /// Texts are written anew from here on.
   void forget() { known_.clear(); }
 

@@ -22,6 +22,11 @@ struct DescriptionBytes {
 /// Laws that a program gives as a function have no bytes: InputError. Frames of bars are written,
 /// so that two of them can be compared, but not read.
 DescriptionBytes description_bytes(const ModelDescription& description);
+/// To be compared only: without the texts of formulas, up to `bodies` with the same doubles in the
+/// same order.
+DescriptionBytes bytes_without_formula_texts(const ModelDescription& description);
+/// To be compared only: without the texts of formulas, with the same doubles in the same order.
+DescriptionBytes bytes_without_formula_texts(const ModelDescription& description);
 
 /// Takes no more memory than a multiple of the bytes. What `build_model` takes for granted - sizes
 /// of matrices, numbers of nodes, words by number, depth of formulas - has been checked. InputError

@@ -76,6 +76,11 @@ void pass(S& s, FormulaMirror& m) {
 template <class S>
 void pass(S& s, Formula& f) {
   auto& [text, steps, sources, references, mirror, curves, grids, switches, kinks] = f;
+  if constexpr (!S::reads)
+    if (!s.formula_texts) {
+      all(s, steps, references, mirror, curves, grids, switches, kinks);
+      return;
+    }
   all(s, text, steps, sources, references, mirror, curves, grids, switches, kinks);
   if constexpr (S::reads)
     if (const char* what = formula_damage(f)) s.damaged(what);
