@@ -60,7 +60,7 @@ ALLOWED = {
     "rotors": DYNAMICS | RUNS | {"linear"},
     "advice": DYNAMICS | RUNS | {"linear"},
     "yaml": {"core", "math", "formulas"},
-    "model_file": FE | {"formulas", "roads", "body", "reduction", "description", "model", "formats/body_file", "formats/geometry", "formats/matlab", "formats/sid", "parts",
+    "model_file": FE | {"packed", "formulas", "roads", "body", "reduction", "description", "model", "formats/body_file", "formats/geometry", "formats/matlab", "formats/sid", "parts",
                    "yaml"},
     "history": DYNAMICS | RUNS,
     "results": DYNAMICS | RUNS,

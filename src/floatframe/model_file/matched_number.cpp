@@ -1,6 +1,5 @@
 #include "floatframe/model_file/matched_number.hpp"
 
-#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -14,12 +13,9 @@ namespace {
 
 using Numbers = std::span<const double>;
 
-bool equal_bits(double a, double b) {
-  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-}
 bool fits(const std::vector<double>& e, Numbers y, const std::function<double(double)>& form) {
   for (std::size_t k = 0; k < y.size(); ++k)
-    if (!equal_bits(form(e[k]), y[k])) return false;
+    if (form(e[k]) != y[k]) return false;
   return true;
 }
 
@@ -88,6 +84,13 @@ std::optional<std::string> as_other(const CandidateExpression& c, Numbers y) {
 
 }  // namespace
 
+SharedFormula parameter_formula(const std::string& text) {
+  Formula f = *compile_formula(parse_expression(text));
+  for (FormulaStep& step : f.steps)  // `${x^3}` is a power, not a product
+    if (step.op == FormulaOp::small_power) step.op = FormulaOp::power_of_number;
+  return std::make_shared<const Formula>(std::move(f));
+}
+
 double formula_value(const Formula& f, const ParameterNumbers& parameters) {
   FormulaSwitches switches;
   FormulaFault fault;
@@ -99,7 +102,7 @@ std::optional<CandidateExpression> candidate(const std::string& text,
                                              std::span<const ParameterNumbers> sets) {
   CandidateExpression out{text, nullptr, {}};
   try {
-    out.formula = compile_formula(parse_expression(text));
+    out.formula = parameter_formula(text);
   } catch (const ExpressionError&) {
     return std::nullopt;
   }

@@ -27,6 +27,8 @@ struct MatchedNumber {
   double factor = 1.0;
 };
 
+/// Compiled so that it has the bits that `${...}` has. ExpressionError: it is no formula.
+SharedFormula parameter_formula(const std::string& text);
 /// As it is evaluated from a packed model; not a number where it has no value.
 double formula_value(const Formula& formula, const ParameterNumbers& parameters);
 /// `text` at all sets; nullopt: it has no value at one of them, or is no formula.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -236,7 +237,7 @@ class Search {
     std::map<std::string, std::uint32_t> known;
     for (const auto& [place, m] : matches_) {
       const auto [it, fresh] = known.emplace(m.text, std::uint32_t(out.formulas.size()));
-      if (fresh) out.formulas.push_back(compile_formula(parse_expression(m.text)));
+      if (fresh) out.formulas.push_back(parameter_formula(m.text));
       out.numbers.push_back({place, it->second, m.factor, number_at(base_, place)});
     }
     out.fixed = fixed_;
