@@ -193,7 +193,7 @@ void pass(S& s, unsigned& x) {
 }
 /// One of the enumerators up to `last`.
 template <class S, class Enum>
-void word(S& s, Enum& x, Enum last) {
+void pass_word(S& s, Enum& x, Enum last) {
   const std::uint64_t n = s.whole(index_of(x));
   s.require(n <= index_of(last), "a word that does not exist");
   if constexpr (S::reads) x = Enum(n);

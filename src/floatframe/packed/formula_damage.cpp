@@ -112,7 +112,7 @@ const char* crg_damage(const CrgRoad& c) {
   const std::size_t cells = c.singles.empty() ? c.doubles.size() : c.singles.size();
   const std::size_t rows = c.v.empty() ? 0 : cells / c.v.size();
   const auto one_or_all = [&](const std::vector<double>& x) {
-    return x.size() == 1 || x.size() == rows;
+    return x.size() <= 1 || x.size() == rows;
   };
   const bool good = c.v.size() > 1 && rows > 1 && rows * c.v.size() == cells &&
                     (c.singles.empty() || c.doubles.empty()) && one_or_all(c.line_heights) &&

@@ -57,7 +57,7 @@ void pass(S& s, FormulaReference& r) {
 template <class S>
 void pass(S& s, FormulaStep& step) {
   auto& [op, index, number, function] = step;
-  word(s, op, FormulaOp::jump_unless);
+  pass_word(s, op, FormulaOp::jump_unless);
   all(s, index, number);
   std::string name = function ? function->name : "";
   pass(s, name);
@@ -118,7 +118,7 @@ template <class S>
 void pass(S& s, SignalDescription& x) {
   pass(s, static_cast<TimeFunction&>(x));
   pass(s, x.input);
-  word(s, x.source, SignalSource::controller);
+  pass_word(s, x.source, SignalSource::controller);
   all(s, x.element, x.value, x.factor);
 }
 template <class S>
@@ -152,8 +152,8 @@ template <class S>
 void pass(S& s, HeightGrid& g) {
   auto& [x, y, interpolation, outside, z, zx, zy, zxy] = g;
   all(s, x, y);
-  word(s, interpolation, GridInterpolation::linear);
-  word(s, outside, GridOutside::refuse);
+  pass_word(s, interpolation, GridInterpolation::linear);
+  pass_word(s, outside, GridOutside::refuse);
   pass(s, z);
   if constexpr (S::reads)
     g = height_grid(std::move(x), std::move(y), std::move(z), interpolation, outside);
@@ -161,7 +161,7 @@ void pass(S& s, HeightGrid& g) {
 template <class S>
 void pass(S& s, CrgEdge& e) {
   auto& [mode, offset] = e;
-  word(s, mode, CrgBorder::reflect);
+  pass_word(s, mode, CrgBorder::reflect);
   pass(s, offset);
 }
 template <class S>
@@ -186,7 +186,7 @@ void pass(S& s, CrgRoad& c) {
   auto& [line, v, uniform, singles, doubles, line_heights, banking, edge_u, edge_v, interpolation,
          notes] = c;
   all(s, line, v, uniform, singles, doubles, line_heights, banking, edge_u, edge_v);
-  word(s, interpolation, CrgInterpolation::cubic);
+  pass_word(s, interpolation, CrgInterpolation::cubic);
   pass(s, notes);
   if constexpr (S::reads)
     if (const char* what = crg_damage(c)) s.damaged(what);
