@@ -16,7 +16,7 @@ FE = {"core", "math", "fe"}
 DYNAMICS = {"core", "math", "formulas", "roads", "body", "inertia", "description", "model", "formulation", "integrator"}
 RUNS = {"loops", "tangents", "start", "reactions", "stepping", "run"}
 # The library floatframe_tools (src/CMakeLists.txt). Only the command line uses it besides.
-TOOLS = {"advice", "history", "results", "page", "export", "realtime", "sweep", "validation", "vehicle", "analyses"}
+TOOLS = {"advice", "history", "results", "page", "export", "realtime", "sweep", "validation", "vehicle", "analyses", "fmu"}
 HEADERS_OF_TOOLS = {"analysis.hpp", "history.hpp", "realtime.hpp", "sweep.hpp", "floatframe.hpp"}
 ALLOWED = {
     "core": set(),
@@ -71,8 +71,9 @@ ALLOWED = {
     "validation": DYNAMICS | RUNS | {"linear", "yaml", "page", "results"},
     "vehicle": DYNAMICS | RUNS | {"results"},
     "analyses": DYNAMICS | RUNS | {"linear", "rotors", "advice", "page", "results", "formats/body_file", "formats/matlab", "model_file"},
+    "fmu": {"core", "math", "body", "inertia", "description", "formulas", "model", "packed", "page", "formats/body_file"},
     "apps": DYNAMICS | FE | RUNS | {"reduction", "formats/body_file", "formats/sid", "formats/text", "parts", "linear", "realtime",
-                             "model_file", "history", "page", "results", "export", "analyses", "sweep", "validation", "vehicle"},
+                             "model_file", "history", "page", "results", "export", "analyses", "sweep", "validation", "vehicle", "packed", "fmu"},
     # The benchmarks of the program, in the folder bench of the project, which no other room may include.
     "bench": DYNAMICS | FE | RUNS | {"reduction", "model_file", "apps"},
 }
