@@ -47,6 +47,8 @@ ALLOWED = {
     # What the user says, and its checks.
     "description": FE | {"formulas", "roads", "body", "reduction"},
     "model": FE | {"formulas", "roads", "body", "reduction", "inertia", "description", "tyres"},
+    # Models in one file: what they are read and built with knows neither finite elements nor their reduction.
+    "packed": {"core", "math", "formulas", "roads", "body", "description", "model"},
     "formulation": {"core", "math", "formulas", "roads", "body", "inertia", "description", "model"},
     "integrator": {"core", "math", "formulas", "roads", "body", "inertia", "description", "model", "formulation"},
     # From the model at rest to results: each uses those before it.
