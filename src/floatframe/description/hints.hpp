@@ -1,5 +1,5 @@
 #pragma once
-// Hints at unusual features of a model, as they were found (model/model_hints.hpp).
+// Hints at unusual features of a model, as they were found when it was built or packed.
 #include <array>
 #include <string>
 #include <vector>
