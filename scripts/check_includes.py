@@ -82,7 +82,7 @@ ALLOWED = {
 
 # Rooms, and single files, that public headers may reach.
 PUBLIC = {"core", "math", "formulas", "roads", "body", "inertia", "fe", "reduction", "formats", "formats/body_file", "formats/sid", "parts", "description",
-          "model", "model_file",
+          "model", "model_file", "packed",
           "formulation/counts.hpp", "loops", "tangents", "start", "stepping", "run", "linear", "rotors", "advice", "history", "page", "results", "analyses", "realtime", "sweep"}
 FOREIGN = re.compile(r'\s*#\s*include\s*<(?!floatframe/)(?!Eigen/)([^>]*[./-][^>]*)>')
 # What programs and modules beside the library see of it.
