@@ -38,7 +38,7 @@ class HandleCase : public ::testing::Test {
   Handle opened() const {
     char text[1000];
     Handle s(floatframe_open(path_.c_str(), text, sizeof text));
-    EXPECT_NE(s, nullptr) << text;
+    EXPECT_TRUE(s != nullptr) << text;
     return s;
   }
   /// From the packed model.
@@ -46,7 +46,7 @@ class HandleCase : public ::testing::Test {
     if (bytes_.empty()) bytes_ = pack_model(path_).to_bytes();
     char text[1000];
     Handle s(floatframe_open_memory(bytes_.data(), bytes_.size(), text, sizeof text));
-    EXPECT_NE(s, nullptr) << text;
+    EXPECT_TRUE(s != nullptr) << text;
     return s;
   }
   static Handle started(Handle s) {

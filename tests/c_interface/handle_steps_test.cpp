@@ -71,7 +71,7 @@ outputs: {z: {joint_position: guide}}
 simulation: {step: 0.01, start: equilibrium}
 )");
   const Handle h(floatframe_open(path.c_str(), nullptr, 0));
-  ASSERT_NE(h, nullptr);
+  ASSERT_TRUE(h != nullptr);
   for (const double pull : {0.0, 20.0, -5.0}) {
     EXPECT_EQ(floatframe_set_input(h.get(), 0, pull), FLOATFRAME_OK);
     ASSERT_EQ(floatframe_start(h.get()), FLOATFRAME_OK) << floatframe_message(h.get());

@@ -16,7 +16,7 @@ class HandleCalls : public HandleCase {};
 
 TEST_F(HandleCalls, NamesUnitsAndLimits) {
   const Handle s = opened();
-  ASSERT_NE(s, nullptr);
+  ASSERT_TRUE(s != nullptr);
   EXPECT_STREQ(floatframe_model_name(s.get()), "machine");
   EXPECT_STREQ(floatframe_fingerprint(s.get()), "");
   EXPECT_STREQ(floatframe_message(s.get()), "");
@@ -108,7 +108,7 @@ outputs: {z: {position: stone, axis: z}}
 simulation: {step: 0.01, start: equilibrium}
 )");
   const Handle s(floatframe_open(path.c_str(), nullptr, 0));
-  ASSERT_NE(s, nullptr);
+  ASSERT_TRUE(s != nullptr);
   EXPECT_EQ(floatframe_start(s.get()), FLOATFRAME_NO_START);
   EXPECT_GT(std::string(floatframe_message(s.get())).size(), 20u);
   EXPECT_EQ(floatframe_step(s.get()), FLOATFRAME_WRONG_ORDER);
@@ -162,7 +162,7 @@ TEST(BoundedTexts, NoCharacterIsCutInTwo) {
   text.set(std::string(10000, 'x'));
   EXPECT_EQ(std::string(text.c_str()), std::string(4095, 'x'));
   text.format("{} {:g}", std::string(3000, 'y'), 1.5);
-  EXPECT_EQ(std::string(text.c_str()), std::string(1024, 'y')) << "is cut, not lost";
+  EXPECT_EQ(std::string(text.c_str()), std::string(1023, 'y')) << "is cut, not lost";
 }
 
 }  // namespace
