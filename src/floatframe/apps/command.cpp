@@ -17,9 +17,9 @@
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/printable.hpp"
+#include "floatframe/description/simulation_option.hpp"
 #include "floatframe/model_file/model_fingerprint.hpp"
 #include "floatframe/model_file/model_reader.hpp"
-#include "floatframe/sweep/simulation_option.hpp"
 
 namespace floatframe {
 

@@ -15,14 +15,6 @@ namespace {
 /// For the step of the options. Squares of smaller ones vanish compared with the masses.
 constexpr double smallest_part = 1e-9;
 
-std::string input_expectation(const Input& input) {
-  const std::string unit = input.unit.empty() ? "" : " [" + input.unit + "]";
-  if (std::isinf(input.low) && std::isinf(input.high)) return "a number" + unit;
-  if (std::isinf(input.high)) return fmt::format("a number of at least {:g}{}", input.low, unit);
-  if (std::isinf(input.low)) return fmt::format("a number of at most {:g}{}", input.high, unit);
-  return fmt::format("a number from {:g} to {:g}{}", input.low, input.high, unit);
-}
-
 }  // namespace
 
 const char* step_status_name(StepStatus status) noexcept {
