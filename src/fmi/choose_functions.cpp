@@ -1,5 +1,5 @@
-// In the binary of an FMU: the functions of the simulation for the processor it runs on. Both copies
-// stand in one file, each with all of its names hidden but that of its table.
+// In the binary of an FMU: the functions of the simulation for the processor it runs on. Both
+// copies stand in one file, each with all of its names hidden but that of its table.
 #include "fmi/functions.hpp"
 
 #ifdef FLOATFRAME_FMU_TWO_COPIES
