@@ -20,10 +20,10 @@ set(runtime_folder ${CMAKE_CURRENT_BINARY_DIR}/fmu)
 
 # One relocatable object of a copy of the library, of which only the entry is seen: the two copies share no inline function.
 function(floatframe_runtime_copy library entry)
-  set(objects $<TARGET_OBJECTS:${library}>)
+  set(objects $<FILTER:$<TARGET_OBJECTS:${library}>,INCLUDE,[.]o$>)  # without the precompiled header
   foreach(room IN LISTS rooms_of_runtime)
     if(TARGET floatframe_room_${room})
-      list(APPEND objects $<TARGET_OBJECTS:floatframe_room_${room}>)
+      list(APPEND objects $<FILTER:$<TARGET_OBJECTS:floatframe_room_${room}>,INCLUDE,[.]o$>)
     endif()
   endforeach()
   set(whole ${runtime_folder}/${library}_whole.o)
