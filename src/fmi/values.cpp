@@ -1,0 +1,113 @@
+// Variables of an instance: their value references, what they are worth, and setting them.
+#include <cmath>
+
+#include "fmi/instance.hpp"
+
+namespace floatframe::fmi {
+
+Instance::Variable Instance::variable(std::uint32_t reference) const noexcept {
+  if (reference == 0) return {Kind::time, 0};
+  const std::int32_t index = std::int32_t(reference & 0xffff);
+  const auto within = [index](Kind kind, std::int32_t count) {
+    return index < count ? Variable{kind, index} : Variable{};
+  };
+  switch (reference >> 16) {
+    case 1:
+      return within(Kind::input, f_.input_count(simulation_));
+    case 2:
+      return within(Kind::output, f_.output_count(simulation_));
+    case 3:
+      return within(Kind::parameter, f_.parameter_count(simulation_));
+    case 4:
+      return within(Kind::figure, std::int32_t(run_.figures.size()));
+    default:
+      return {};
+  }
+}
+
+double Instance::value(Variable variable) const noexcept {
+  switch (variable.kind) {
+    case Kind::time:
+      return time();
+    case Kind::input:
+      return f_.input(simulation_, variable.index);
+    case Kind::output:
+      return f_.output(simulation_, variable.index);
+    case Kind::parameter:
+      return f_.parameter(simulation_, variable.index);
+    case Kind::figure:
+      return run_.figures[unsigned(variable.index)];
+    case Kind::none:
+      break;
+  }
+  return std::nan("");
+}
+
+double Instance::time() const noexcept {
+  return run_.needs_start ? run_.start : f_.time(simulation_) + run_.shift;
+}
+
+Status Instance::get(const std::uint32_t* references, std::size_t count, double* values) noexcept {
+  if (count == 0) return Status::ok;
+  if (references == nullptr || values == nullptr)
+    return fail("found NULL, expected %zu value references and values", count);
+  Status status = Status::ok;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Variable found = variable(references[k]);
+    if (found.kind == Kind::none)
+      return fail("found value reference %u, expected one of modelDescription.xml",
+                  unsigned(references[k]));
+    if (found.kind == Kind::output && run_.needs_start) {
+      // In initialization mode outputs follow the inputs and parameters that have been set.
+      if (state_ != State::initialization)
+        return fail("found value reference %u: outputs have no values before the initialization",
+                    unsigned(references[k]));
+      const Status start = ensure_start();
+      if (start == Status::error) return start;
+      if (start == Status::warning) status = start;
+    }
+    values[k] = value(found);
+  }
+  return status;
+}
+
+Status Instance::set(const std::uint32_t* references, std::size_t count,
+                     const double* values) noexcept {
+  if (count == 0) return Status::ok;
+  if (references == nullptr || values == nullptr)
+    return fail("found NULL, expected %zu value references and values", count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const Kind kind = variable(references[k]).kind;
+    if (kind != Kind::input && kind != Kind::parameter)
+      return fail("found value reference %u, expected that of an input or of a parameter",
+                  unsigned(references[k]));
+  }
+  Status status = Status::ok;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Status one = set_one(variable(references[k]), values[k]);
+    if (one == Status::error) return one;
+    if (one == Status::warning) status = one;
+  }
+  return status;
+}
+
+Status Instance::set_one(Variable variable, double value) noexcept {
+  const floatframe_status found = variable.kind == Kind::input
+                                      ? f_.set_input(simulation_, variable.index, value)
+                                      : f_.set_parameter(simulation_, variable.index, value);
+  if (found != FLOATFRAME_OK && found != FLOATFRAME_WARNING)
+    return fail("%s", f_.message(simulation_));
+  if (state_ != State::stepping) run_.needs_start = true;
+  if (found == FLOATFRAME_OK) return Status::ok;
+  log_.write(Status::warning, Category::warning, "%s: %s", function_, f_.message(simulation_));
+  return Status::warning;
+}
+
+Status Instance::access_none(const std::uint32_t* references, std::size_t count) noexcept {
+  if (count == 0) return Status::ok;
+  if (references == nullptr) return fail("found NULL, expected %zu value references", count);
+  return fail("found value reference %u, expected none: all variables are real numbers of 64 bits",
+              unsigned(references[0]));
+}
+
+}  // namespace floatframe::fmi
