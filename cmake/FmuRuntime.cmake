@@ -8,10 +8,10 @@
 set(rooms_of_runtime core math formulas roads tyres description body model loops tangents start reactions stepping packed c_interface)
 # Of these, what reads other files, prepares finite elements or needs another system: no function of an FMU calls it.
 set(files_not_in_runtime
-    body/fe_* body/surface_* core/atomic_file core/folder_lock core/growing_file core/json_text core/library_path
-    core/output_files core/output_place core/regular_file core/text_table math/blas_room math/lowest_motions math/rainflow
-    math/resolvent math/second_order_subspace math/sparse_* model/bar_hints model/build_flexible model/path_hints
-    roads/crg_file roads/crg_header roads/crg_source tyres/tir_file tyres/tir_keywords)
+    body/fe_* body/point_invariants body/surface_mesh core/atomic_file core/folder_lock core/growing_file
+    core/json_text core/library_path core/output_files core/output_place core/text_table math/blas_room math/lowest_motions
+    math/rainflow math/resolvent math/second_order_subspace math/sparse_* model/bar_hints model/build_flexible model/model_hints
+    model/path_hints roads/crg_file roads/crg_header roads/crg_source)
 # The entry of each copy of the runtime into the functions of floatframe.h.
 set(entry_of_runtime floatframe_function_table)
 
