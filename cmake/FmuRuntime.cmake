@@ -86,7 +86,7 @@ if(FLOATFRAME_FMU_WIN64 AND FLOATFRAME_MINGW)
       -Wno-maybe-uninitialized -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread
       --param=large-unit-insns=1000000 --param=max-inline-insns-auto=100 --param=max-inline-insns-single=600
       -DFMT_HEADER_ONLY -DEIGEN_MPL2_ONLY -DEIGEN_MAX_ALIGN_BYTES=16 -DEIGEN_MAX_STATIC_ALIGN_BYTES=16
-      -DEIGEN_STACK_ALLOCATION_LIMIT=65536 -DFLOATFRAME_WITHOUT_ABI_GUARD -DFLOATFRAME_API= -DFLOATFRAME_FMU_V3=0
+      -DEIGEN_STACK_ALLOCATION_LIMIT=131072 -DFLOATFRAME_WITHOUT_ABI_GUARD -DFLOATFRAME_API= -DFLOATFRAME_FMU_V3=0
       -I${CMAKE_CURRENT_SOURCE_DIR} -I${PROJECT_BINARY_DIR}/generated -isystem ${mingw_headers})
   # Patterns as regular expressions; a source of step time is in the room that it stands in.
   list(TRANSFORM files_not_in_runtime REPLACE "[*]" "[a-z_0-9]*" OUTPUT_VARIABLE left_out)
