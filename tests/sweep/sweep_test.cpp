@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "floatframe/run/results.hpp"
-#include "floatframe/sweep/simulation_option.hpp"
+#include "floatframe/description/simulation_option.hpp"
 #include "floatframe/sweep/sweep_run.hpp"
 #include "support/error_of.hpp"
 #include "support/temporary_folder.hpp"

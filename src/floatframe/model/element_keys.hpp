@@ -79,6 +79,12 @@ struct KeyMember {
   void (*write)(ElementDescription&, const KeyValue&) = nullptr;
 };
 
+/// The content of a file: the member that keeps it, empty: it is read when the element is built.
+struct FileContent {
+  KeyMember member;
+  std::string (*read)(const std::string& path);
+};
+
 struct ElementKey {
   const char* name;
   KeyKind kind;
@@ -93,6 +99,7 @@ struct ElementKey {
   bool axial = false;                              ///< how a direction reflects
   const char* of = nullptr;                        ///< of a stop: the key of the spring
   KeyMember member = {};
+  const FileContent* content = nullptr;  ///< of a file
 };
 
 namespace key_member {

@@ -2,6 +2,7 @@
 // The rule for values of inputs from any source: a program, a packet, a saved state.
 #include <cmath>
 #include <optional>
+#include <string>
 
 #include "floatframe/model/model.hpp"
 
@@ -15,5 +16,8 @@ inline std::optional<double> accepted_value(const Input& input, double value) no
   if (!input.clamp) return std::nullopt;
   return value < input.low ? input.low : input.high;
 }
+
+/// What an input may be set to, as errors say it: "a number from 0 to 5 [N]".
+std::string input_expectation(const Input& input);
 
 }  // namespace floatframe

@@ -42,12 +42,4 @@ ModelDescription read_model(const std::string& path,
 /// cannot be read.
 std::vector<std::string> model_parameters(const std::string& path);
 
-/// The numbers of the section `simulation`: a key of the file, or an option of that name.
-struct SimulationNumber {
-  const char* name;
-  double SimulationDescription::*at;
-  NumberRule rule;
-};
-const std::vector<SimulationNumber>& simulation_numbers();
-
 }  // namespace floatframe

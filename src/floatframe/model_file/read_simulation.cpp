@@ -1,6 +1,7 @@
 // Start and options of a run: `simulation` and `initial`.
 #include "floatframe/description/rules.hpp"
 #include "floatframe/description/sentences.hpp"
+#include "floatframe/description/simulation_option.hpp"
 #include "floatframe/model_file/model_reader.hpp"
 #include "floatframe/model_file/read_parts.hpp"
 #include "floatframe/model_file/state_json.hpp"
@@ -110,21 +111,6 @@ void read_amplitudes(const ModelInstance& self, ReadModel& model, const YamlValu
 }
 
 }  // namespace
-
-const std::vector<SimulationNumber>& simulation_numbers() {
-  using S = SimulationDescription;
-  static const std::vector<SimulationNumber> numbers{
-      {"step", &S::step, rules::step},
-      {"duration", &S::duration, rules::duration},
-      {"output_interval", &S::output_interval, rules::output_interval},
-      {"spectral_radius", &S::spectral_radius, rules::spectral_radius},
-      {"tolerance", &S::tolerance, rules::tolerance},
-      {"min_step", &S::min_step, rules::min_step},
-      {"penalty", &S::penalty, rules::penalty},
-      {"position_tolerance", &S::position_tolerance, rules::position_tolerance},
-      {"velocity_tolerance", &S::velocity_tolerance, rules::velocity_tolerance}};
-  return numbers;
-}
 
 void read_simulation(const ModelInstance& self, ReadModel& model) {
   if (!self.root) return;

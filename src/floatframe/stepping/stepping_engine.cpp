@@ -15,14 +15,6 @@ namespace {
 /// For the step of the options. Squares of smaller ones vanish compared with the masses.
 constexpr double smallest_part = 1e-9;
 
-std::string input_expectation(const Input& input) {
-  const std::string unit = input.unit.empty() ? "" : " [" + input.unit + "]";
-  if (std::isinf(input.low) && std::isinf(input.high)) return "a number" + unit;
-  if (std::isinf(input.high)) return fmt::format("a number of at least {:g}{}", input.low, unit);
-  if (std::isinf(input.low)) return fmt::format("a number of at most {:g}{}", input.high, unit);
-  return fmt::format("a number from {:g} to {:g}{}", input.low, input.high, unit);
-}
-
 }  // namespace
 
 const char* step_status_name(StepStatus status) noexcept {
@@ -45,11 +37,15 @@ Simulation::Engine::Engine(const Model& model, const SimulationDescription& opti
     input_owners_.push_back("input '" + input.name + "'");
   }
   wanted_ = inputs_;
+  name_owners();
+  sample();
+}
+
+void Simulation::Engine::name_owners() {
   owners_ = coordinate_owners(steps_.formulation());
   for (std::string& owner : constraint_owners(steps_.formulation()))
     owners_.push_back(std::move(owner));
   for (const Element& force : model_.elements) owners_.push_back("force '" + force.name + "'");
-  sample();
 }
 
 void Simulation::Engine::sample() noexcept {

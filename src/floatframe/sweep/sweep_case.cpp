@@ -7,8 +7,8 @@
 #include "floatframe/core/content_hash.hpp"
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/description/inertia_choice.hpp"
+#include "floatframe/description/simulation_option.hpp"
 #include "floatframe/model_file/parsed_files.hpp"
-#include "floatframe/sweep/simulation_option.hpp"
 
 namespace floatframe {
 namespace {

@@ -1,11 +1,11 @@
-#include "floatframe/sweep/simulation_option.hpp"
+#include "floatframe/description/simulation_option.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "floatframe/model_file/model_reader.hpp"
-#include "floatframe/yaml/yaml_value.hpp"
+#include "floatframe/description/rules.hpp"
+#include "floatframe/formulas/syntax_tree.hpp"
 
 namespace floatframe {
 namespace {
@@ -23,6 +23,21 @@ std::string choose(E& field, const std::string& value, const char* first, const 
 }
 
 }  // namespace
+
+const std::vector<SimulationNumber>& simulation_numbers() {
+  using S = SimulationDescription;
+  static const std::vector<SimulationNumber> numbers{
+      {"step", &S::step, rules::step},
+      {"duration", &S::duration, rules::duration},
+      {"output_interval", &S::output_interval, rules::output_interval},
+      {"spectral_radius", &S::spectral_radius, rules::spectral_radius},
+      {"tolerance", &S::tolerance, rules::tolerance},
+      {"min_step", &S::min_step, rules::min_step},
+      {"penalty", &S::penalty, rules::penalty},
+      {"position_tolerance", &S::position_tolerance, rules::position_tolerance},
+      {"velocity_tolerance", &S::velocity_tolerance, rules::velocity_tolerance}};
+  return numbers;
+}
 
 const std::vector<std::string>& simulation_option_names() {
   static const std::vector<std::string> names = [] {
