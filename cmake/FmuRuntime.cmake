@@ -8,7 +8,7 @@
 set(rooms_of_runtime core math formulas roads tyres description body model loops tangents start reactions stepping packed c_interface)
 # Of these, what reads other files, prepares finite elements or needs another system: no function of an FMU calls it.
 set(files_not_in_runtime
-    body/fe_* body/point_invariants body/surface_mesh core/atomic_file core/folder_lock core/growing_file
+    c_interface/open_model_file packed/pack body/fe_* body/point_invariants body/surface_mesh core/atomic_file core/folder_lock core/growing_file
     core/json_text core/library_path core/output_files core/output_place core/text_table math/blas_room math/lowest_motions
     math/rainflow math/resolvent math/second_order_subspace math/sparse_* model/bar_hints model/build_flexible model/model_hints
     model/path_hints roads/crg_file roads/crg_header roads/crg_source)
@@ -23,7 +23,7 @@ function(floatframe_runtime_copy library entry)
   set(objects $<FILTER:$<TARGET_OBJECTS:${library}>,INCLUDE,[.]o$>)  # without the precompiled header
   foreach(room IN LISTS rooms_of_runtime)
     if(TARGET floatframe_room_${room})
-      list(APPEND objects $<FILTER:$<TARGET_OBJECTS:floatframe_room_${room}>,INCLUDE,[.]o$>)
+      list(APPEND objects $<FILTER:$<FILTER:$<TARGET_OBJECTS:floatframe_room_${room}>,INCLUDE,[.]o$>,EXCLUDE,open_model_file>)
     endif()
   endforeach()
   set(whole ${runtime_folder}/${library}_whole.o)

@@ -2,29 +2,19 @@
 // and FMA (x86-64-v3), as the library is: the steps are the same, their last digits differ.
 #include "fmi/functions.hpp"
 
-extern "C" {
-const floatframe_functions* floatframe_function_table(void) noexcept;
 #if FLOATFRAME_FMU_V3
-const floatframe_functions* floatframe_function_table_v3(void) noexcept;
+/// `floatframe_function_table` of the other copy, which has this name in the binary.
+extern "C" const floatframe_functions* floatframe_function_table_v3() noexcept;
 #endif
-}
 
 namespace floatframe::fmi {
 namespace {
 
-/// What x86-64-v3 means, as the dynamic linker has it that chooses the copy of the library: FMUs
+/// What x86-64-v3 means is what the dynamic linker has, which chooses the copy of the library: FMUs
 /// and programs step alike on one processor.
-bool is_v3() noexcept {
-#if FLOATFRAME_FMU_V3
-  return __builtin_cpu_supports("x86-64-v3");
-#else
-  return false;
-#endif
-}
-
 const floatframe_functions& chosen() noexcept {
 #if FLOATFRAME_FMU_V3
-  if (is_v3()) return *floatframe_function_table_v3();
+  if (__builtin_cpu_supports("x86-64-v3")) return *floatframe_function_table_v3();
 #endif
   return *floatframe_function_table();
 }
