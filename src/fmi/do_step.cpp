@@ -79,7 +79,6 @@ Status Instance::advance(Plan plan, double target, StepReport& report) noexcept 
       --plan.whole;
     else
       plan.rest = 0.0;
-    run_.figures[unsigned(Figure::steps)] += 1.0;
     if (update_ != nullptr && update(plan, target, report) == Status::error) return Status::error;
   }
   return status;
@@ -105,18 +104,16 @@ Status Instance::update(Plan& plan, double target, StepReport& report) noexcept 
 }
 
 void Instance::count_step(double seconds, double size) noexcept {
-  double& largest = run_.figures[unsigned(Figure::largest_share)];
   const double share = seconds / size;
-  if (share > largest) largest = share;
+  if (share > run_.largest_share) run_.largest_share = share;
   if (!(share > 1.0)) return;
-  double& overruns = run_.figures[unsigned(Figure::overruns)];
-  overruns += 1.0;
+  run_.overruns += 1.0;
   // The first, and whenever their number has doubled: what is said takes time, too.
   int exponent = 0;
-  if (std::frexp(overruns, &exponent) != 0.5) return;
+  if (std::frexp(run_.overruns, &exponent) != 0.5) return;
   log_.write(Status::ok, Category::overrun,
              "%s: the step of %g s took %g s; %.0f such steps so far", function_, size, seconds,
-             overruns);
+             run_.overruns);
 }
 
 }  // namespace floatframe::fmi

@@ -103,6 +103,8 @@ Instance::Instance(const InstanceOptions& options, floatframe_simulation* simula
     first_inputs_.push_back(f_.input_initial(simulation_, k));
   for (std::int32_t k = 0; k < f_.parameter_count(simulation_); ++k)
     first_parameters_.push_back(f_.parameter(simulation_, k));
+  indices_.reserve(first_parameters_.size());
+  numbers_.reserve(first_parameters_.size());
 }
 
 Instance::~Instance() { f_.close(simulation_); }
@@ -165,9 +167,7 @@ Status Instance::ensure_start() noexcept {
   run_.shift = run_.start - f_.time(simulation_);
   for (std::int32_t k = 0; k < f_.note_count(simulation_); ++k)
     log_.write(Status::ok, Category::start, "%s", f_.note(simulation_, k));
-  if (found == FLOATFRAME_OK) return Status::ok;
-  log_.write(Status::warning, Category::warning, "%s: %s", function_, f_.message(simulation_));
-  return Status::warning;
+  return worse(Status::ok, found);
 }
 
 Status Instance::terminate() noexcept {

@@ -69,7 +69,7 @@ class Instance {
   Status reset() noexcept;
 
   Status get(const std::uint32_t* references, std::size_t count, double* values) noexcept;
-  Status set(const std::uint32_t* references, std::size_t count, const double* values) noexcept;
+  Status set(const std::uint32_t* references, std::size_t count, const double* values);
   /// Of types of which there is no variable.
   Status access_none(const std::uint32_t* references, std::size_t count) noexcept;
 
@@ -100,7 +100,9 @@ class Instance {
   Instance(const InstanceOptions& options, floatframe_simulation* simulation);
   Variable variable(std::uint32_t reference) const noexcept;
   double value(Variable variable) const noexcept;
-  Status set_one(Variable variable, double value) noexcept;
+  double figure(Figure figure) const noexcept;
+  /// After a call of the simulation, the message of which it says.
+  Status worse(Status status, floatframe_status found) noexcept;
   /// The start with the present inputs and parameters, if these have changed since the last one.
   Status ensure_start() noexcept;
   void count_step(double seconds, double size) noexcept;
@@ -120,6 +122,8 @@ class Instance {
   void* environment_;
   bool early_return_;
   std::vector<double> first_inputs_, first_parameters_;
+  std::vector<std::int32_t> indices_;  // of the parameters in one call, and their values
+  std::vector<double> numbers_;
   std::vector<std::unique_ptr<SavedState>> states_;
 
   const char* function_ = "";  // the call of now

@@ -47,18 +47,14 @@ Status Instance::apply(const SavedState& state) {
     for (std::size_t k = 0; k < state.inputs.size(); ++k)
       if (f_.set_input(simulation_, std::int32_t(k), state.inputs[k]) > FLOATFRAME_WARNING)
         return fail("%s", f_.message(simulation_));
-    for (std::size_t k = 0; k < state.parameters.size(); ++k)
-      if (f_.set_parameter(simulation_, std::int32_t(k), state.parameters[k]) > FLOATFRAME_WARNING)
-        return fail("%s", f_.message(simulation_));
-  } else {
-    const auto restore = [&] {
-      return f_.restore(simulation_, state.model.data(), state.model.size());
-    };
-    floatframe_status found = restore();
-    // In another process nothing has been started yet.
-    if (found == FLOATFRAME_WRONG_ORDER && f_.start(simulation_) == FLOATFRAME_OK)
-      found = restore();
-    if (found != FLOATFRAME_OK) return fail("%s", f_.message(simulation_));
+    indices_.clear();
+    for (std::size_t k = 0; k < state.parameters.size(); ++k) indices_.push_back(std::int32_t(k));
+    if (!indices_.empty() &&
+        f_.set_parameters(simulation_, indices_.data(), state.parameters.data(), indices_.size()) >
+            FLOATFRAME_WARNING)
+      return fail("%s", f_.message(simulation_));
+  } else if (f_.restore(simulation_, state.model.data(), state.model.size()) != FLOATFRAME_OK) {
+    return fail("%s", f_.message(simulation_));
   }
   run_ = state.run;
   state_ = state.state;

@@ -28,11 +28,10 @@ std::uint64_t hash_of(const char* text) {
 /// Of fixed size, before the arrays.
 struct Head {
   std::uint64_t magic = 0, fingerprint = 0, version = 0, state = 0, needs_start = 0;
-  double start = 0.0, stop = 0.0, shift = 0.0;
-  std::array<double, 5> figures{};
+  double start = 0.0, stop = 0.0, shift = 0.0, overruns = 0.0, largest_share = 0.0;
   std::uint64_t inputs = 0, parameters = 0, model = 0;
 };
-static_assert(sizeof(Head) == 8 * 16);  // without gaps
+static_assert(sizeof(Head) == 8 * 13);  // without gaps
 
 }  // namespace
 
@@ -50,7 +49,8 @@ void write_bytes(const SavedState& state, const StateOwner& owner, unsigned char
                   state.run.start,
                   state.run.stop,
                   state.run.shift,
-                  state.run.figures,
+                  state.run.overruns,
+                  state.run.largest_share,
                   state.inputs.size(),
                   state.parameters.size(),
                   state.model.size()};
@@ -91,7 +91,7 @@ const char* read_bytes(const unsigned char* bytes, std::size_t size, const State
       !std::isfinite(head.shift) || !(head.stop >= head.start))
     return "the state has values that no instance has";
   state.state = State(head.state);
-  state.run = {head.start, head.stop, head.shift, both, head.figures};
+  state.run = {head.start, head.stop, head.shift, both, head.overruns, head.largest_share};
   const unsigned char* from = bytes + sizeof head;
   const auto take = [&from](void* to, std::size_t count) {
     if (count > 0) std::memcpy(to, from, count);

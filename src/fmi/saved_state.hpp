@@ -2,7 +2,6 @@
 // What an importer keeps of an instance: the state machine, the run, and the bytes of the
 // simulation. In a file or in another process as bytes of one form (little-endian, as all platforms
 // that Floatframe is built for), with the fingerprint of the model and a checksum.
-#include <array>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -11,16 +10,19 @@
 
 namespace floatframe::fmi {
 
-/// Figures of a run, which are variables of the FMU in this order.
+/// Figures of a run, which are variables of the FMU in this order: inner steps, their substeps and
+/// Newton iterations; steps of the importer that took longer than they last, and the largest part of
+/// a step that it took.
 enum class Figure { steps, substeps, iterations, overruns, largest_share };
+inline constexpr int figure_count = 5;
 
 /// What belongs to one run and is forgotten by a reset.
 struct Run {
   double start = 0.0;                                     ///< [s]
   double stop = std::numeric_limits<double>::infinity();  ///< [s]
-  double shift = 0.0;               ///< time of the FMU minus that of the model [s]
-  bool needs_start = true;          ///< inputs or parameters are newer than the start
-  std::array<double, 5> figures{};  ///< by `Figure`
+  double shift = 0.0;       ///< time of the FMU minus that of the model [s]
+  bool needs_start = true;  ///< inputs or parameters are newer than the start
+  double overruns = 0.0, largest_share = 0.0;
 };
 
 struct SavedState {

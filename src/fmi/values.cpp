@@ -19,7 +19,7 @@ Instance::Variable Instance::variable(std::uint32_t reference) const noexcept {
     case 3:
       return within(Kind::parameter, f_.parameter_count(simulation_));
     case 4:
-      return within(Kind::figure, std::int32_t(run_.figures.size()));
+      return within(Kind::figure, figure_count);
     default:
       return {};
   }
@@ -36,9 +36,28 @@ double Instance::value(Variable variable) const noexcept {
     case Kind::parameter:
       return f_.parameter(simulation_, variable.index);
     case Kind::figure:
-      return run_.figures[unsigned(variable.index)];
+      return figure(Figure(variable.index));
     case Kind::none:
       break;
+  }
+  return std::nan("");
+}
+
+double Instance::figure(Figure figure) const noexcept {
+  const auto counted = [this](std::int64_t count) {
+    return run_.needs_start ? 0.0 : double(count);
+  };
+  switch (figure) {
+    case Figure::steps:
+      return counted(f_.step_count(simulation_));
+    case Figure::substeps:
+      return counted(f_.substep_count(simulation_));
+    case Figure::iterations:
+      return counted(f_.iteration_count(simulation_));
+    case Figure::overruns:
+      return run_.overruns;
+    case Figure::largest_share:
+      return run_.largest_share;
   }
   return std::nan("");
 }
@@ -71,8 +90,7 @@ Status Instance::get(const std::uint32_t* references, std::size_t count, double*
   return status;
 }
 
-Status Instance::set(const std::uint32_t* references, std::size_t count,
-                     const double* values) noexcept {
+Status Instance::set(const std::uint32_t* references, std::size_t count, const double* values) {
   if (count == 0) return Status::ok;
   if (references == nullptr || values == nullptr)
     return fail("found NULL, expected %zu value references and values", count);
@@ -83,22 +101,28 @@ Status Instance::set(const std::uint32_t* references, std::size_t count,
                   unsigned(references[k]));
   }
   Status status = Status::ok;
+  indices_.clear();
+  numbers_.clear();
   for (std::size_t k = 0; k < count; ++k) {
-    const Status one = set_one(variable(references[k]), values[k]);
-    if (one == Status::error) return one;
-    if (one == Status::warning) status = one;
+    const Variable found = variable(references[k]);
+    if (found.kind == Kind::parameter) {
+      indices_.push_back(found.index);
+      numbers_.push_back(values[k]);
+      continue;
+    }
+    status = worse(status, f_.set_input(simulation_, found.index, values[k]));
+    if (status == Status::error) return status;
   }
+  if (!indices_.empty())
+    status = worse(
+        status, f_.set_parameters(simulation_, indices_.data(), numbers_.data(), indices_.size()));
+  if (status != Status::error && state_ != State::stepping) run_.needs_start = true;
   return status;
 }
 
-Status Instance::set_one(Variable variable, double value) noexcept {
-  const floatframe_status found = variable.kind == Kind::input
-                                      ? f_.set_input(simulation_, variable.index, value)
-                                      : f_.set_parameter(simulation_, variable.index, value);
-  if (found != FLOATFRAME_OK && found != FLOATFRAME_WARNING)
-    return fail("%s", f_.message(simulation_));
-  if (state_ != State::stepping) run_.needs_start = true;
-  if (found == FLOATFRAME_OK) return Status::ok;
+Status Instance::worse(Status status, floatframe_status found) noexcept {
+  if (found == FLOATFRAME_OK) return status;
+  if (found != FLOATFRAME_WARNING) return fail("%s", f_.message(simulation_));
   log_.write(Status::warning, Category::warning, "%s: %s", function_, f_.message(simulation_));
   return Status::warning;
 }

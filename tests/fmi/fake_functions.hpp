@@ -17,7 +17,7 @@ inline constexpr double fake_step = 0.01;  // [s]
 const std::filesystem::path& fake_resources();
 /// Simulations that are open now.
 int open_fakes();
-/// Calls of step and step_by since the program began, in all threads.
+/// Successful calls of step and step_by since the program began, in all threads.
 long fake_steps();
 /// How long each step takes at least [s], for tests of overruns.
 void slow_down_fakes(double seconds);
