@@ -44,13 +44,14 @@ if(TARGET floatframe_v3)
   floatframe_runtime_copy(floatframe_v3 ${entry_of_runtime}_v3)
 endif()
 
-add_library(floatframe_fmu MODULE ${fmi_sources} ${copies_of_runtime})
+# What the objects of the library call of fmt is compiled in, since its library is not on every machine.
+set(text_formatting ${CMAKE_CURRENT_SOURCE_DIR}/fmi/linux/text_formatting.cpp)
+set_source_files_properties(${text_formatting} PROPERTIES
+  COMPILE_OPTIONS -fkeep-inline-functions INCLUDE_DIRECTORIES "$<TARGET_PROPERTY:fmt::fmt,INTERFACE_INCLUDE_DIRECTORIES>")
+add_library(floatframe_fmu MODULE ${fmi_sources} ${text_formatting} ${copies_of_runtime})
 target_include_directories(floatframe_fmu PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
 target_compile_definitions(floatframe_fmu PRIVATE FLOATFRAME_FMU_V3=$<TARGET_EXISTS:floatframe_v3>)
 target_link_libraries(floatframe_fmu PRIVATE floatframe_compiler)
-# What the objects of the library call of fmt: compiled in, since its library is not on every machine.
-set_source_files_properties(${CMAKE_CURRENT_SOURCE_DIR}/fmi/text_formatting.cpp PROPERTIES
-  COMPILE_OPTIONS -fkeep-inline-functions INCLUDE_DIRECTORIES "$<TARGET_PROPERTY:fmt::fmt,INTERFACE_INCLUDE_DIRECTORIES>")
 target_compile_options(floatframe_fmu PRIVATE -fvisibility=hidden -ffunction-sections -fdata-sections)
 target_link_options(floatframe_fmu PRIVATE
   -static-libstdc++ -static-libgcc -Wl,--gc-sections -Wl,-Bsymbolic -Wl,-z,defs -Wl,-s
@@ -92,7 +93,6 @@ if(FLOATFRAME_FMU_WIN64 AND FLOATFRAME_MINGW)
   list(TRANSFORM files_not_in_runtime REPLACE "[*]" "[a-z_0-9]*" OUTPUT_VARIABLE left_out)
   list(JOIN left_out "|" left_out)
   set(dll_sources ${fmi_sources})  # one by one: one of them sees the macros of Windows
-  list(REMOVE_ITEM dll_sources ${CMAKE_CURRENT_SOURCE_DIR}/fmi/text_formatting.cpp)
   foreach(room IN LISTS rooms_of_runtime rooms_of_steps)
     file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/floatframe/${room}/*.cpp)
     list(FILTER sources EXCLUDE REGEX "/floatframe/(${left_out})\\.cpp$")
