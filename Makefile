@@ -1,6 +1,6 @@
 # Everyday commands. `make demo` and `make test` do everything from a fresh clone on Debian 12 or 13 or Ubuntu 24.04.
 .DEFAULT_GOAL := build
-.PHONY: build test test-all stairs-and-kills random-suites test-nightly test-contracts test-viewer attacks test-export test-decks test-figures python test-python test-python-asan wheel test-wheel archive demo docs bench bench-record bench-compare race asan dev fuzz install-packages format check-format clean help
+.PHONY: build test test-all stairs-and-kills random-suites test-nightly test-contracts test-viewer attacks test-export test-decks test-figures test-fmu python test-python test-python-asan wheel test-wheel archive demo docs bench bench-record bench-compare race asan dev fuzz install-packages format check-format clean help
 
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 VERSION := $(shell awk '/^project/ {print $$3}' CMakeLists.txt)
@@ -14,6 +14,7 @@ help:
 	@echo "make test-nightly  a thousand cases (CASES=1000) of each random suite and of attacks"
 	@echo "make test-all      make test, then what takes longer: hundreds of random mechanisms, stairs, attacks, twenty kills of each kind,"
 	@echo "                   the page in a browser, exported files in VTK and a glTF validator, CalculiX' decks, held figures, the Python package and its wheel"
+	@echo "make test-fmu      FMUs with what makes them run on Windows: the cross compiler, Wine; part of test-all"
 	@echo "make test-contracts  the tests of the rooms of steps, with asserts; not part of test-all"
 	@echo "make attacks       hostile input of every kind, ATTACKS=5000 each, for a night; SEED=1 begins it"
 	@echo "make test-python   the Python package and its tests, in an environment from PyPI"
@@ -49,6 +50,7 @@ test: build
 test-all: test
 	$(MAKE) --no-print-directory -j2 --output-sync mechanisms-0 mechanisms-1 CASES=300 MECHANISMS='-*TouchingCurves:*Cams:*StopsAndFriction'
 	$(MAKE) --no-print-directory -j2 --output-sync attacks stairs-and-kills ATTACKS=200
+	$(MAKE) --no-print-directory test-fmu
 	$(MAKE) --no-print-directory test-viewer
 	$(MAKE) --no-print-directory test-export
 	$(MAKE) --no-print-directory -j2 --output-sync test-decks test-figures
@@ -107,6 +109,13 @@ test-decks: build
 test-figures: build
 	@scripts/install_packages.sh --figures
 	python3 -B tests/held_figures/held_figures_test.py --instructions build/floatframe
+
+# Co-simulation FMUs for both systems: the binaries inside them, and masters that run them.
+test-fmu: install-packages
+	@scripts/install_packages.sh --fmu
+	cmake --preset release -UFLOATFRAME_MINGW
+	cmake --build build --parallel $(JOBS)
+	@cd build && $(CTEST) -R '^(fmu|fmi)\.'
 
 # The Python package in the build folder, for an environment of its own from PyPI.
 python: build

@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # Installs what Floatframe needs to be built and tested on Debian 12 or Ubuntu 24.04 (and their relatives).
 #
-#   scripts/install_packages.sh [--check | --docs | --viewer | --decks | --figures]
+#   scripts/install_packages.sh [--check | --docs | --viewer | --decks | --figures | --fmu]
 #
 # Runs nothing when everything is there. Otherwise prints what is missing and installs it, through sudo when not
 # root. Exit code 1, with the command to run, when it cannot install. --check only looks; --docs: with what the reference
 # of the C++ interface is made with; --viewer: with the browser that the page of a run is tested in;
-# --decks: with CalculiX and its decks, which readers are tested with; --figures: with what counts instructions.
+# --decks: with CalculiX and its decks, which readers are tested with; --figures: with what counts instructions;
+# --fmu: with the compiler for Windows and Wine, for FMUs that run there too.
 #
 # Node builds that page. It is looked for as commands, since a Node from elsewhere conflicts with the packages of the
 # system; without it there is a note and the program writes reports with static curves.
@@ -32,8 +33,10 @@ elif [[ "${1:-}" == "--decks" ]]; then
   packages+=(calculix-ccx calculix-ccx-test)
 elif [[ "${1:-}" == "--figures" ]]; then
   packages+=(valgrind)
+elif [[ "${1:-}" == "--fmu" ]]; then
+  packages+=(g++-mingw-w64-x86-64-posix wine64 valgrind)
 elif [[ $# -gt 0 ]]; then
-  echo "usage: $0 [--check | --docs | --viewer | --decks | --figures]" >&2
+  echo "usage: $0 [--check | --docs | --viewer | --decks | --figures | --fmu]" >&2
   exit 2
 fi
 

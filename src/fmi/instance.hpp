@@ -55,7 +55,7 @@ class Instance {
   /// At the beginning of each call. Other than ok: it is not allowed now.
   Status begin(Call call, const char* function) noexcept;
   /// Says that the call of now has failed; ends the run.
-#ifdef __GNUC__
+#if defined(__GNUC__) && !defined(_WIN32)  // there it stands for the formats of msvcrt
   __attribute__((format(printf, 2, 3)))
 #endif
   Status

@@ -36,7 +36,7 @@ class Log {
   bool wants(Category category) const noexcept { return wanted_[unsigned(category)]; }
   void choose_all() noexcept { wanted_.fill(true); }
 
-#ifdef __GNUC__
+#if defined(__GNUC__) && !defined(_WIN32)  // there it stands for the formats of msvcrt
   __attribute__((format(printf, 4, 5)))
 #endif
   void

@@ -9,9 +9,11 @@ namespace floatframe {
 
 // A program compiled for the baseline shares objects with the library compiled for AVX2: the layout
 // of fixed-size matrices must not depend on the instruction set. Eigen's own choice of alignment
-// does.
+// does. Windows has the runtime of FMUs alone, compiled once, whose stack is aligned to 16 bytes.
+#ifndef _WIN32
 static_assert(alignof(Eigen::Vector4d) == 32 && alignof(Eigen::Matrix<double, 6, 6>) == 32);
 static_assert(EIGEN_MALLOC_ALREADY_ALIGNED == 0);
+#endif
 
 std::string version() { return FLOATFRAME_VERSION; }
 

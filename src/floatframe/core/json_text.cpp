@@ -5,8 +5,6 @@
 namespace floatframe {
 namespace {
 
-constexpr std::size_t longest_excerpt = 60;
-
 /// Counts brackets outside texts: at least the depth that the parser reaches before an error.
 bool nests_too_deep(std::string_view text) noexcept {
   int depth = 0;
@@ -38,13 +36,6 @@ nlohmann::ordered_json read_json(std::string_view text, std::string& why) {
   value = nlohmann::ordered_json::parse(text, nullptr, false);
   if (value.is_discarded()) why = "damaged, or not JSON";
   return value;
-}
-
-std::string excerpt(std::string_view text) {
-  if (text.size() <= longest_excerpt) return std::string(text);
-  std::size_t end = longest_excerpt;  // not inside a multi-byte character
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0u) == 0x80u) --end;
-  return std::string(text.substr(0, end)) + "...";
 }
 
 std::string json_excerpt(const nlohmann::ordered_json& value) {

@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "floatframe/core/excerpt.hpp"
+
 namespace floatframe {
 
 /// Files of this program nest at most ten levels. Copies, comparisons and output of nested values
@@ -13,8 +15,6 @@ inline constexpr int deepest_json = 64;
 /// The value; discarded, with the reason in `why`, if the text is not JSON or nests deeper.
 nlohmann::ordered_json read_json(std::string_view text, std::string& why);
 
-/// `text` for a sentence, truncated with "..." if it is long.
-std::string excerpt(std::string_view text);
 /// The value as JSON, truncated for a sentence.
 std::string json_excerpt(const nlohmann::ordered_json& value);
 

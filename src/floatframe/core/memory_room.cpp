@@ -1,8 +1,10 @@
 #include "floatframe/core/memory_room.hpp"
 
 #include <fmt/format.h>
+#ifndef _WIN32
 #include <sys/resource.h>
 #include <unistd.h>
+#endif
 
 #include <algorithm>
 #include <fstream>
@@ -13,6 +15,7 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
+#ifndef _WIN32
 /// The first number of a file, or of the line of it that begins with `key`.
 double number_in(const char* file, const std::string& key = "") {
   std::ifstream in(file);
@@ -22,9 +25,14 @@ double number_in(const char* file, const std::string& key = "") {
   double number = 0.0;
   return in >> number ? number : infinite;
 }
+#endif
 
 }  // namespace
 
+#ifdef _WIN32
+// Unknown: only the runtime of FMUs is there, which has no large results.
+double memory_room() { return infinite; }
+#else
 double memory_room() {
   double room = 1024.0 * number_in("/proc/meminfo", "MemAvailable:");
   const double of_group = number_in("/sys/fs/cgroup/memory.max");
@@ -38,6 +46,7 @@ double memory_room() {
   }
   return std::max(room, 0.0);
 }
+#endif
 
 std::string memory_complaint(double bytes) {
   constexpr double giga = 1e9;

@@ -1,5 +1,32 @@
 #include "floatframe/core/regular_file.hpp"
 
+#include "floatframe/core/diagnostics.hpp"
+
+#ifdef _WIN32
+// The runtime of FMUs is all there is on Windows; it reads packed models and, for programs, tyres.
+#include <fstream>
+
+namespace floatframe {
+
+std::string regular_file(const std::filesystem::path& file, std::uint64_t largest) {
+  const auto wrong = [&](const char* why) {
+    return InputError(ErrorCode::unreadable, {file.string(), 0, 0}, why);
+  };
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error))
+    throw wrong("the file does not exist, or is not a regular file");
+  const std::uint64_t size = std::filesystem::file_size(file, error);
+  if (error || size >= largest) throw wrong("the file is too large, or cannot be read");
+  std::string content(size, '\0');
+  std::ifstream in(file, std::ios::binary);
+  if (!in.read(content.data(), std::ssize(content))) throw wrong("the file cannot be read");
+  return content;
+}
+
+}  // namespace floatframe
+
+#else
+
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -8,8 +35,6 @@
 #include <cerrno>
 #include <cstring>
 #include <new>
-
-#include "floatframe/core/diagnostics.hpp"
 
 namespace floatframe {
 namespace {
@@ -140,3 +165,5 @@ std::string regular_file(const std::filesystem::path& file, std::uint64_t larges
 }
 
 }  // namespace floatframe
+
+#endif

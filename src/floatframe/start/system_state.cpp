@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "floatframe/core/json_text.hpp"
+#include "floatframe/core/excerpt.hpp"
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/loops/redundancy.hpp"
 #include "floatframe/math/so3.hpp"

@@ -37,13 +37,13 @@ struct StepReport {
 
 /// Sums and largest values since the start.
 struct StepCounters {
-  long steps = 0;     ///< requested and completed
-  long substeps = 0;  ///< by halving of steps that did not converge
-  long iterations = 0, factorizations = 0;
-  long edges = 0;                       ///< that steps were divided at (`locate_edges`)
-  long edges_passed = 0;                ///< steps with more edges than are looked for
-  long corners = 0;                     ///< of functions of time, that steps were divided at
-  long cut_short = 0;                   ///< accepted before they had converged (real time)
+  std::int64_t steps = 0;     ///< requested and completed
+  std::int64_t substeps = 0;  ///< by halving of steps that did not converge
+  std::int64_t iterations = 0, factorizations = 0;
+  std::int64_t edges = 0;               ///< that steps were divided at (`locate_edges`)
+  std::int64_t edges_passed = 0;        ///< steps with more edges than are looked for
+  std::int64_t corners = 0;             ///< of functions of time, that steps were divided at
+  std::int64_t cut_short = 0;           ///< accepted before they had converged (real time)
   double max_position_violation = 0.0;  ///< [m] after steps
   double max_velocity_violation = 0.0;  ///< [m/s] after the projections
   /// Of the loads of joints that friction reads, from iteration to iteration; 0 without any.

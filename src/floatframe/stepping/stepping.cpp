@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "floatframe/core/json_text.hpp"
+#include "floatframe/core/excerpt.hpp"
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/stepping/simulation_options.hpp"
 #include "floatframe/stepping/stepping_engine.hpp"
