@@ -1,6 +1,9 @@
 // floatframe fmu: a model as an FMU, which other programs step.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+
 #include "floatframe/apps/commands.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/fmu/fmu_file.hpp"
