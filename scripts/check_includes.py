@@ -17,7 +17,7 @@ DYNAMICS = {"core", "math", "formulas", "roads", "body", "inertia", "description
 RUNS = {"loops", "tangents", "start", "reactions", "stepping", "run"}
 # The library floatframe_tools (src/CMakeLists.txt). Only the command line uses it besides.
 TOOLS = {"advice", "history", "results", "page", "export", "realtime", "sweep", "validation", "vehicle", "analyses", "fmu"}
-HEADERS_OF_TOOLS = {"analysis.hpp", "history.hpp", "realtime.hpp", "sweep.hpp", "floatframe.hpp"}
+HEADERS_OF_TOOLS = {"analysis.hpp", "fmu.hpp", "history.hpp", "realtime.hpp", "sweep.hpp", "floatframe.hpp"}
 ALLOWED = {
     "core": set(),
     "math": {"core"},
@@ -47,6 +47,8 @@ ALLOWED = {
     # What the user says, and its checks.
     "description": FE | {"formulas", "roads", "body", "reduction"},
     "model": FE | {"formulas", "roads", "body", "reduction", "inertia", "description", "tyres"},
+    # Models in one file: what they are read and built with knows neither finite elements nor their reduction.
+    "packed": {"core", "math", "formulas", "roads", "body", "description", "model"},
     "formulation": {"core", "math", "formulas", "roads", "body", "inertia", "description", "model"},
     "integrator": {"core", "math", "formulas", "roads", "body", "inertia", "description", "model", "formulation"},
     # From the model at rest to results: each uses those before it.
@@ -60,7 +62,7 @@ ALLOWED = {
     "rotors": DYNAMICS | RUNS | {"linear"},
     "advice": DYNAMICS | RUNS | {"linear"},
     "yaml": {"core", "math", "formulas"},
-    "model_file": FE | {"formulas", "roads", "body", "reduction", "description", "model", "formats/body_file", "formats/geometry", "formats/matlab", "formats/sid", "parts",
+    "model_file": FE | {"packed", "formulas", "roads", "body", "reduction", "description", "model", "formats/body_file", "formats/geometry", "formats/matlab", "formats/sid", "parts",
                    "yaml"},
     "history": DYNAMICS | RUNS,
     "results": DYNAMICS | RUNS,
@@ -81,7 +83,7 @@ ALLOWED = {
 # Rooms, and single files, that public headers may reach.
 PUBLIC = {"core", "math", "formulas", "roads", "body", "inertia", "fe", "reduction", "formats", "formats/body_file", "formats/sid", "parts", "description",
           "model", "model_file",
-          "formulation/counts.hpp", "loops", "tangents", "start", "stepping", "run", "linear", "rotors", "advice", "history", "page", "results", "analyses", "realtime", "sweep"}
+          "formulation/counts.hpp", "loops", "tangents", "start", "stepping", "run", "linear", "rotors", "advice", "history", "page", "results", "analyses", "realtime", "sweep", "packed", "fmu"}
 FOREIGN = re.compile(r'\s*#\s*include\s*<(?!floatframe/)(?!Eigen/)([^>]*[./-][^>]*)>')
 # What programs and modules beside the library see of it.
 OUTSIDE = {"main": {"apps/command_line.hpp", "bench/bench_command.hpp"}, "mpi": {"sweep/ranks.hpp"},

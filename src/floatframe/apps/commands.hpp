@@ -22,6 +22,7 @@ Command export_command();
 Command stress_command();
 Command rainflow_command();
 Command vehicle_command();
+Command pack_command();
 Command fmu_command();
 
 inline std::vector<Command> all_commands() {
@@ -30,7 +31,7 @@ inline std::vector<Command> all_commands() {
   for (const auto make :
        {realtime_command, sweep_command, reduce_command, info_command, convert_command,
         compare_command, validate_command, outputs_command, export_command, stress_command,
-        rainflow_command, vehicle_command, fmu_command})
+        rainflow_command, vehicle_command, pack_command, fmu_command})
     commands.push_back(make());
   return commands;
 }

@@ -77,6 +77,7 @@ struct MagicFormulaTyre : RollingTyre {
   bool limits = false;             ///< slips, camber and load within the ranges of the file
   double friction = 1.0;           ///< factor of the scale factors LMUX and LMUY
   double stiffness_factor = 1.0;   ///< factor of LKX and LKY
+  std::string text = {};           ///< content of the file; empty: it is read
 };
 
 /// TMeasy: values at the nominal load and at twice, in rows.

@@ -7,7 +7,6 @@
 #include "floatframe/body/mirrored.hpp"
 #include "floatframe/body/modal_mass.hpp"
 #include "floatframe/body/with_modes.hpp"
-#include "floatframe/model/build_flexible.hpp"
 #include "floatframe/model/joint_motion.hpp"
 #include "floatframe/model/model_builder.hpp"
 
@@ -68,7 +67,7 @@ void ModelBuilder::stiffening(const BodyDescription& b, Body& body) {
                  "reduction that computes them)");
 }
 
-void ModelBuilder::bodies(FlexibleBuilder& flexible) {
+void ModelBuilder::bodies(const ReduceBody& reduce) {
   for (const BodyDescription& b : d.bodies) {
     Body body;
     body.name = b.name;
@@ -89,7 +88,7 @@ void ModelBuilder::bodies(FlexibleBuilder& flexible) {
     } else {
       const bool stiffens =
           b.geometric_stiffening.value_or(d.simulation.geometric_stiffening.value_or(false));
-      body.data = flexible.build(b, stiffens, errors);
+      body.data = reduce(b, stiffens, errors);
     }
     if (!body.data) body.data = std::make_shared<const FlexibleBody>();
     if (b.rigid) body.data = std::make_shared<const FlexibleBody>(with_modes(*body.data, {}));

@@ -8,6 +8,7 @@
 #include "floatframe/body/body_shape.hpp"
 #include "floatframe/body/mirrored.hpp"
 #include "floatframe/fe/bar_frame.hpp"
+#include "floatframe/model/build_stages.hpp"
 #include "floatframe/reduction/reduction.hpp"
 
 namespace floatframe {
@@ -240,6 +241,20 @@ std::shared_ptr<const FlexibleBody> FlexibleBuilder::build(const BodyDescription
   auto image = std::make_shared<const FlexibleBody>(mirrored(*plain, body.mirror));
   known_.push_back({mirror_key.text(), image});
   return image;
+}
+
+Model build_model(const ModelDescription& description) {
+  FlexibleBuilder flexible;
+  return build_model(description, flexible);
+}
+
+Model build_model(const ModelDescription& description, FlexibleBuilder& flexible) {
+  return build_model(
+      description,
+      [&](const BodyDescription& body, bool stiffens, ErrorList& errors) {
+        return flexible.build(body, stiffens, errors);
+      },
+      model_hints);
 }
 
 }  // namespace floatframe

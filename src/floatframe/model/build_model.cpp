@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "floatframe/description/sentences.hpp"
-#include "floatframe/model/build_flexible.hpp"
+#include "floatframe/model/build_stages.hpp"
 #include "floatframe/model/model_builder.hpp"
 #include "floatframe/model/snap.hpp"
 #include "floatframe/model/validate_model.hpp"
@@ -40,12 +40,8 @@ const Model& built(const Model& model) {
   return model;
 }
 
-Model build_model(const ModelDescription& description) {
-  FlexibleBuilder flexible;
-  return build_model(description, flexible);
-}
-
-Model build_model(const ModelDescription& description, FlexibleBuilder& flexible) {
+Model build_model(const ModelDescription& description, const ReduceBody& reduce,
+                  const FindHints& find_hints) {
   ModelBuilder b(description);
   b.model.name = description.name;
   b.model.gravity = description.gravity;
@@ -53,7 +49,7 @@ Model build_model(const ModelDescription& description, FlexibleBuilder& flexible
   b.model.vehicle = description.vehicle;
   validate(description, b.errors);
   b.errors.throw_if_any();
-  b.bodies(flexible);
+  b.bodies(reduce);
   b.errors.throw_if_any();
   b.roads();
   b.inputs();
@@ -70,7 +66,7 @@ Model build_model(const ModelDescription& description, FlexibleBuilder& flexible
   b.modal_masses();
   b.finish();
   b.errors.throw_if_any();
-  ModelHints hints = model_hints(description, b.model);
+  ModelHints hints = description.hints ? *description.hints : find_hints(description, b.model);
   found.notes.insert(found.notes.end(), hints.notes.begin(), hints.notes.end());
   found.bending = std::move(hints.bending);
   b.model.hints = std::move(found);

@@ -8,12 +8,11 @@
 #include <string>
 
 #include "floatframe/description/name_index.hpp"
+#include "floatframe/model/build_stages.hpp"
 #include "floatframe/model/element_keys.hpp"
 #include "floatframe/model/model.hpp"
 
 namespace floatframe {
-
-class FlexibleBuilder;
 
 /// The description has been checked by `validate`: only errors that appear when bodies are reduced
 /// remain.
@@ -36,7 +35,7 @@ struct ModelBuilder {
         road_names(description.roads),
         input_names(description.inputs) {}
 
-  void bodies(FlexibleBuilder& flexible);
+  void bodies(const ReduceBody& reduce);
   void stiffening(const BodyDescription& b, Body& body);
   void roads();
   void inputs();

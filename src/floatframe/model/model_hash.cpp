@@ -87,7 +87,7 @@ class ModelHash {
   void add(const Marker& m) {
     const auto& [body, node, X_NM, rotates, path, guide] = m;
     if (path) all(guide, path->points());
-    all(body, node, X_NM, rotates);
+    all(body, node >= 0, X_NM, rotates);  // the node itself: below
   }
   void add(const Joint& j) {
     const auto& [name, type, parent, child, F, M, axis_2, position, velocity, keep, motion, motions,
@@ -102,11 +102,12 @@ class ModelHash {
   void add(const SharedFormula& f) {
     if (!f) return;
     add(f->text);
+    for (const FormulaStep& step : f->steps) add(step.number);  // also where the text is older
     for (const auto& curve : f->curves) add(*curve);
     for (const auto& grid : f->grids) all(grid->x, grid->y, grid->values);
   }
   void add(const CoordinateTerm& t) { all(t.joint, t.coordinate, t.factor); }
-  void add(const ForceFunction& f) { add(f.identity()); }
+  void add(const ForceFunction& f) { all(f.identity(), f.formula()); }
   void add(const Signal& s) {
     const auto& [function, input, link, given, differentiated, local] = s;
     all(function, input, link, given);
@@ -171,16 +172,16 @@ class ModelHash {
     for (const MatX& m : S2) add(m);
     for (const auto& row : S2i)
       for (const MatX& m : row) add(m);
-    for (const auto& [node, h, theta] : nodes) {
-      add(node);
-      for (int j = 0; j < 3; ++j) all(h[j], theta[j]);
-    }
+  }
+  void add(const SecondOrderNode& n) {
+    const auto& [node, h, theta] = n;
+    for (std::size_t j = 0; j < 3; ++j) all(h[j], theta[j]);
   }
   void add(const FlexibleBody& body) {
     const auto& [invariants, K, D, nodes, projection, mass_model, turning, second_order,
                  frequencies, equal_left_out, mode_names, shape, stress, interfaces] = body;
-    all(invariants, K, D, projection != nullptr, mass_model);  // nodes: those with markers
-    if (projection) add(*projection);
+    all(invariants, K, D, mass_model);  // nodes: those with markers
+    if (projected_ && projection) add(*projection);
     if (turning) add(*turning);
   }
   void add(const Body& b) {
@@ -196,19 +197,27 @@ class ModelHash {
     const auto& [name, gravity, bodies, joints, elements, links, roads, inputs, markers, outputs,
                  measures, until, gauges, amplitudes, amplitude_rates, mean_mass, simulation,
                  vehicle, hints, linear] = model;  // manoeuvres read `vehicle`, no step does
+    projected_ = simulation.inertia == InertiaMethod::projection;
     all(gravity, bodies, joints, elements, links, roads, inputs, markers, outputs, mean_mass);
     for (const Output& o : measures) add(o);
     if (until) add(*until);
     for (const Gauge& g : gauges) add(g);
     for (const Marker& m : markers)
-      if (m.body >= 0 && m.node >= 0) add(bodies[m.body].data->nodes[m.node]);
+      if (m.body >= 0 && m.node >= 0) add_node(bodies[m.body], m.node);
     for (const Marker& m : markers)
       if (m.path)
-        for (const int node : m.path->nodes()) add(bodies[m.body].data->nodes[node]);
+        for (const int node : m.path->nodes()) add_node(bodies[m.body], node);
+  }
+  void add_node(const Body& body, int node) {
+    add(body.data->nodes[node]);
+    if (!body.stiffens()) return;
+    for (const SecondOrderNode& n : body.data->second_order->nodes)
+      if (n.node == node) add(n);
   }
 
  private:
   ContentHash hash_;
+  bool projected_ = false;  ///< data of the projection method matter
 };
 
 }  // namespace

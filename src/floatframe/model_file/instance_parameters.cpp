@@ -7,6 +7,7 @@
 #include "floatframe/core/number_rule.hpp"
 #include "floatframe/core/printable.hpp"
 #include "floatframe/formulas/function_words.hpp"
+#include "floatframe/yaml/expressions_read.hpp"
 
 namespace floatframe {
 namespace {
@@ -44,6 +45,53 @@ std::string shown(const ParameterValue& v) {
     text += '\'';
   }
   return text;
+}
+
+/// The value of an entry: itself, or `value` of a map that says more.
+std::optional<YamlValue> declared_value(const YamlValue& entry, ParameterWords& words) {
+  if (!entry.is_map()) return entry;
+  YamlSection section(entry);
+  auto value = section.require("value");
+  if (const auto unit = section.get("unit")) words.unit = unit->text("a unit").value_or("");
+  if (const auto about = section.get("about"))
+    words.about = about->text("what the parameter is").value_or("");
+  section.finish();
+  return value;
+}
+
+/// For models that are packed: what the value of a parameter follows from.
+void note_meaning(const ModelInstance& self, const std::string& name, const YamlValue& value,
+                  const ParameterValue& v, const GivenParameter* given) {
+  auto* read = ExpressionsRead::current();
+  if (!read) return;
+  const bool outermost = self.outer == nullptr;
+  if (given && given->scope)
+    read->declare_as(self.scope, name, given->text, *given->scope, v);
+  else if (given)
+    read->declare(self.scope, name, v, outermost);
+  else if (value.is_scalar() && value.node().text.find("${") != std::string::npos)
+    read->declare_as(self.scope, name, value.node().text, self.scope, v);
+  else
+    read->declare(self.scope, name, v, outermost);
+}
+
+/// Values from outside, the last one of the type of the declared one.
+void take_given(const std::vector<const GivenParameter*>& given, const std::string& name,
+                ReadErrors& errors, std::optional<ParameterValue>& v) {
+  for (const GivenParameter* g : given) {
+    if (v && v->index() == 2 && !g->raw.empty())
+      v = g->raw;
+    else if (!g->complaint.empty())
+      errors.add(
+          ErrorCode::out_of_range, g->mark,
+          g->subject + " " + name + "=" + g->raw + ": found " + g->raw + " (" + g->complaint + ")");
+    else if (v && v->index() != g->value.index())
+      errors.add(
+          ErrorCode::wrong_value, g->mark,
+          g->subject + "." + name + ": found " + shown(g->value) + ", expected " + type_name(*v));
+    else
+      v = g->value;
+  }
 }
 
 }  // namespace
@@ -110,37 +158,37 @@ void read_parameters(ModelInstance& self, const std::vector<GivenParameter>& giv
                            "found a hyphen, expected letters, digits and _ in a parameter name");
         continue;
       }
-      for (const std::string& later : hiding)
-        if (value.is_scalar() && mentions(value.node().text, later))
-          value.error(ErrorCode::contradiction, "found " + value.found() + ", but the parameter '" +
-                                                    later +
-                                                    "', which takes the place of the constant, is "
-                                                    "declared later; expected it before its uses");
-      hiding.erase(name);
-      auto v = value.parameter();
-      for (auto [it, end] = by_name.equal_range(name); it != end; ++it) {
-        const GivenParameter& g = given[it->second];
-        used[it->second] = true;
-        if (v && v->index() == 2 && !g.raw.empty())
-          v = g.raw;
-        else if (!g.complaint.empty())
-          errors.add(
-              ErrorCode::out_of_range, g.mark,
-              g.subject + " " + name + "=" + g.raw + ": found " + g.raw + " (" + g.complaint + ")");
-        else if (v && v->index() != g.value.index())
-          errors.add(
-              ErrorCode::wrong_value, g.mark,
-              g.subject + "." + name + ": found " + shown(g.value) + ", expected " + type_name(*v));
-        else
-          v = g.value;
+      ParameterWords words;
+      const auto inner = declared_value(value, words);
+      if (!inner) {
+        self.scope.emplace(name, 1.0);
+        continue;
       }
+      for (const std::string& later : hiding)
+        if (inner->is_scalar() && mentions(inner->node().text, later))
+          inner->error(ErrorCode::contradiction, "found " + inner->found() +
+                                                     ", but the parameter '" + later +
+                                                     "', which takes the place of the constant, is "
+                                                     "declared later; expected it before its uses");
+      hiding.erase(name);
+      auto v = inner->parameter();
+      std::vector<const GivenParameter*> own;
+      for (auto [it, end] = by_name.equal_range(name); it != end; ++it) {
+        used[it->second] = true;
+        own.push_back(&given[it->second]);
+      }
+      take_given(own, name, errors, v);
       // An invalid parameter is still declared, so that its uses are not errors too.
       if (v && v->index() == 2 &&
           !errors.take_of("characters in the texts of all parameters",
-                          std::get<std::string>(*v).size(), limits::parameter_text, value.mark(),
-                          value.path()))
+                          std::get<std::string>(*v).size(), limits::parameter_text, inner->mark(),
+                          inner->path()))
         v = std::string("?");
       self.scope.emplace(name, v.value_or(1.0));
+      if (!v) continue;
+      note_meaning(self, name, *inner, *v, own.empty() ? nullptr : own.back());
+      if (auto* read = ExpressionsRead::current(); read && !self.outer)
+        read->describe(name, std::move(words));
     }
   }
   for (std::size_t i = 0; i < given.size(); ++i)

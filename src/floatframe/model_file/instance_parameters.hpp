@@ -17,6 +17,8 @@ struct GivenParameter {
   std::string subject;    ///< "subsystems.left.parameters" or "--set"
   std::string raw;        ///< as written on the command line: the value of a text
   std::string complaint;  ///< error of a malformed number, true or false
+  std::string text = {};  ///< with its expressions, which are of `scope`
+  const ParameterScope* scope = nullptr;
 };
 
 /// "--set name=value" for the file `path`. A text is taken as written, without quotes around it.

@@ -99,7 +99,15 @@ class Loader {
       if (const auto p = section->get("parameters"))
         for (auto& [key, v] : p->named("a map of names to values"))
           if (const auto x = v.parameter())
-            given.push_back({key, *x, v.entity_mark(), p->path(), {}, {}});
+            given.push_back(
+                {key,
+                 *x,
+                 v.entity_mark(),
+                 p->path(),
+                 {},
+                 {},
+                 v.node().text,
+                 v.node().text.find("${") == std::string::npos ? nullptr : &self.scope});
       Placement placement;
       if (const auto p = section->get("position"))
         if (const auto v = p->vector("m")) placement = translation(*v);

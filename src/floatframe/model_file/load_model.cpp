@@ -2,6 +2,7 @@
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/model_file/model_reader.hpp"
+#include "floatframe/model_file/pack_model.hpp"
 
 namespace floatframe {
 namespace {
@@ -36,6 +37,10 @@ ModelDescription read_description(const std::string& text, const std::string& pa
 }
 
 Model load_model(const std::string& path, const std::vector<ParameterOverride>& parameters) {
+  if (!path.empty() && is_packed_file(path)) {
+    const PackedModel model = read_packed_model(path);
+    return model.build(packed_values(model, parameters));
+  }
   return build_model(load_description(path, parameters));
 }
 

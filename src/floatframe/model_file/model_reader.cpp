@@ -1,15 +1,18 @@
 #include "floatframe/model_file/model_reader.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <set>
 #include <tuple>
 
+#include "floatframe/core/content_hash.hpp"
 #include "floatframe/description/rules.hpp"
 #include "floatframe/description/sentences.hpp"
 #include "floatframe/model_file/load_instances.hpp"
+#include "floatframe/model_file/pack_model.hpp"
 #include "floatframe/model_file/read_parts.hpp"
 #include "floatframe/model_file/resolved_text.hpp"
 
@@ -92,7 +95,38 @@ std::vector<ErrorEntry> sorted(std::vector<ErrorEntry> errors, const ModelFiles&
 
 }  // namespace
 
+namespace {
+
+/// A model file that is packed already: its description with these values of its parameters.
+ModelDescription packed_description(const std::string& path,
+                                    const std::vector<ParameterOverride>& overrides,
+                                    ModelFingerprint* used, const ReadOptions& options) {
+  const PackedModel model = read_packed_model(path);
+  if (used) {
+    for (const PackedParameter& p : model.parameters()) used->parameters.push_back(p.name);
+    used->files[path] = model.fingerprint();
+  }
+  if (!options.outputs.empty())
+    throw InputError(ErrorCode::unsupported, {path, 0, 0},
+                     "found a packed model and further outputs, expected those that were packed");
+  const std::vector<double> values = packed_values(model, overrides);
+  if (used) {
+    ContentHash hash;
+    hash.add(std::string_view(model.fingerprint()));
+    for (const double x : values) hash.add(std::bit_cast<std::uint64_t>(x));
+    used->model = used->simulation = hash.text();
+  }
+  return model.description(values);
+}
+
+}  // namespace
+
 std::vector<std::string> model_parameters(const std::string& path) {
+  if (is_packed_file(path)) {
+    std::vector<std::string> packed;
+    for (const PackedParameter& p : read_packed_model(path).parameters()) packed.push_back(p.name);
+    return packed;
+  }
   ReadErrors errors;
   ModelFiles files(errors);
   std::vector<std::string> names;
@@ -104,6 +138,8 @@ std::vector<std::string> model_parameters(const std::string& path) {
 ModelDescription read_model(const std::string& path,
                             const std::vector<ParameterOverride>& overrides, ModelFingerprint* used,
                             const ReadOptions& options) {
+  if (!options.text && is_packed_file(path))
+    return packed_description(path, overrides, used, options);
   std::optional<FilesRead> record;
   if (used) record.emplace(used->files);
   ReadErrors errors;

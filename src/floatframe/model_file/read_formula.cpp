@@ -7,6 +7,7 @@
 #include "floatframe/formulas/function_words.hpp"
 #include "floatframe/model/output_kind.hpp"
 #include "floatframe/model_file/read_parts.hpp"
+#include "floatframe/yaml/expressions_read.hpp"
 #include "floatframe/yaml/read_table.hpp"
 
 namespace floatframe {
@@ -123,6 +124,7 @@ SharedFormula compiled(const ModelInstance& self, const YamlValue& value, std::s
   if (!text) return nullptr;
   try {
     SyntaxNode tree = parse_expression(value_text(*text));
+    if (auto* read = ExpressionsRead::current()) read->in_formula(tree, self.scope);
     Binder(self, own).bind(tree);
     const Placement& x = self.world;
     return compile_formula(tree, self.tables, {x.P.diagonal(), x.t - x.P * self.shift});

@@ -11,6 +11,7 @@
 // node, which a tree of boxes finds: what was asked before does not matter.
 #include <array>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace floatframe {
@@ -33,6 +34,20 @@ class ReferenceLine {
   ReferenceLine(double u0, double du, std::size_t steps, Node start, double heading);
   /// At least two nodes. Headings of the first and the last step.
   ReferenceLine(double u0, double du, std::vector<Node> nodes, double first, double last);
+
+  /// All that it is made from.
+  struct Numbers {
+    double u0 = 0.0, du = 1.0;
+    std::size_t steps = 1;
+    std::vector<Node> nodes;  ///< none: straight
+    Node start;
+    std::array<double, 2> heading{0.0, 0.0};  ///< of the first and the last step
+  };
+  explicit ReferenceLine(Numbers x)
+      : ReferenceLine(x.nodes.empty() ? ReferenceLine(x.u0, x.du, x.steps, x.start, x.heading[0])
+                                      : ReferenceLine(x.u0, x.du, std::move(x.nodes), x.heading[0],
+                                                      x.heading[1])) {}
+  Numbers numbers() const { return {u0_, du_, steps_, nodes_, start_, heading_}; }
 
   double first() const noexcept { return u0_; }
   double last() const noexcept { return u0_ + du_ * steps_; }

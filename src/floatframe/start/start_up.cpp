@@ -100,4 +100,28 @@ InitialisedModel::InitialisedModel(const InitialisedModel& found)
   f_->set_spring_angles(spring_angles_);
 }
 
+InitialisedModel::InitialisedModel(const Model& changed, const SimulationDescription& o,
+                                   const InitialisedModel& found)
+    : given_(movable(built(changed))),
+      changed_(started_model(changed, o)),
+      inertia_(found.inertia_),
+      f_(make_formulation(found.f_->coordinates(), model(), inertia_)),
+      state_(found.state_),
+      spring_angles_(found.spring_angles_),
+      report_(found.report_),
+      step_options_(floatframe::step_options(model(), o)),
+      min_step_(found.min_step_) {
+  const Formulation &now = *f_, &before = *found.f_;
+  if (now.velocities() != before.velocities() || now.configurations() != before.configurations() ||
+      now.constraints() != before.constraints() ||
+      f_->element_states().count() != state_.z.size() ||
+      now.spring_angles().size() != spring_angles_.size())
+    throw InputError(ErrorCode::mismatch,
+                     "found a changed model with other coordinates, constraints or states, "
+                     "expected other numbers only");
+  step_options_.spectral_radius = found.step_options_.spectral_radius;
+  f_->set_spring_angles(spring_angles_);
+  f_->element_states().give(state_.z);
+}
+
 }  // namespace floatframe

@@ -25,6 +25,11 @@ class InitialisedModel {
                    Coordinates coordinates);
   /// Another system at the start of `found`, which must outlive it: the search is not repeated.
   InitialisedModel(const InitialisedModel& found);
+  /// A model of the same structure with other numbers, at the start of `found`: nothing is searched
+  /// for, so that the state fits the new numbers in its positions and velocities alone. Throws
+  /// InputError if there are other coordinates, constraints or states.
+  InitialisedModel(const Model& changed, const SimulationDescription& options,
+                   const InitialisedModel& found);
   InitialisedModel& operator=(const InitialisedModel&) = delete;
 
   /// The model of the formulation: with the start values of the state, if the run starts from one.

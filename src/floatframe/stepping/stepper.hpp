@@ -61,6 +61,10 @@ class Stepper {
   Stepper(const Model& model, const SimulationDescription& options, const StepLimits& limits = {});
   /// Another system at the start of `found`, which must outlive it: the search is not repeated.
   Stepper(const Stepper& found, double duration);
+  /// Goes on where `before` is, which must outlive it only for this call, with a model of the same
+  /// structure and other numbers: accelerations and multipliers fit the new forces, as they do
+  /// after inputs have jumped. Throws InputError if the structure is another one.
+  Stepper(const Model& changed, const SimulationDescription& options, const Stepper& before);
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
 

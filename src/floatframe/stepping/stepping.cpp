@@ -85,5 +85,9 @@ double Simulation::output(std::ptrdiff_t index) const {
 void Simulation::on_force(ForceCallback callback) { engine_->on_force(std::move(callback)); }
 SimulationState Simulation::save() const { return engine_->save(); }
 void Simulation::restore(const SimulationState& state) { engine_->restore(state); }
+void Simulation::change_model(const Model& changed) {
+  engine_->require_idle("change_model");
+  if (!engine_->steps_as(built(changed))) engine_ = std::make_unique<Engine>(changed, *engine_);
+}
 
 }  // namespace floatframe

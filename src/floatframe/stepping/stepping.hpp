@@ -114,6 +114,14 @@ class Simulation {
   /// options, or not valid. The force callback remains set.
   void restore(const SimulationState& state);
 
+  /// From the next step on the model is `changed`: of the same structure, with other numbers
+  /// (stiffnesses, gains, masses, laws, functions of time, ...). Positions, velocities, states of
+  /// elements, inputs and options stay; time and outputs are those of the last step until the next
+  /// one. A model that steps as the present one changes nothing. States saved before belong to the
+  /// old model, states saved from now on to the new one. Allocates. Throws InputError, and changes
+  /// nothing, for a model of another structure, after a failed step and during the force callback.
+  void change_model(const Model& changed);
+
  private:
   class Engine;
   std::unique_ptr<Engine> engine_;

@@ -45,11 +45,15 @@ Simulation::Engine::Engine(const Model& model, const SimulationDescription& opti
     input_owners_.push_back("input '" + input.name + "'");
   }
   wanted_ = inputs_;
+  name_owners();
+  sample();
+}
+
+void Simulation::Engine::name_owners() {
   owners_ = coordinate_owners(steps_.formulation());
   for (std::string& owner : constraint_owners(steps_.formulation()))
     owners_.push_back(std::move(owner));
   for (const Element& force : model_.elements) owners_.push_back("force '" + force.name + "'");
-  sample();
 }
 
 void Simulation::Engine::sample() noexcept {

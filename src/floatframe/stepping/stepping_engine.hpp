@@ -12,6 +12,8 @@ namespace floatframe {
 class Simulation::Engine {
  public:
   Engine(const Model& model, const SimulationDescription& options);
+  /// Goes on where `before` is, with a model of the same structure; takes its numbers over.
+  Engine(const Model& changed, Engine& before);
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
@@ -33,6 +35,8 @@ class Simulation::Engine {
   void on_force(ForceCallback callback);
   SimulationState save();
   void restore(const SimulationState& state);
+  /// True if no step of the other model differs from those of this one.
+  bool steps_as(const Model& other);
   /// Throws InputError while the force callback runs.
   void require_idle(const char* what) const;
 
@@ -47,6 +51,7 @@ class Simulation::Engine {
   std::shared_ptr<SimulationState::Data> present();
   std::string complaint(const SimulationState::Data& given, const SimulationState::Data& own);
 
+  void name_owners();
   void sample() noexcept;
   /// The end of a report about a step that failed.
   void explain(StepReport& report) const noexcept;

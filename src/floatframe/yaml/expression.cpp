@@ -7,6 +7,7 @@
 
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/formulas/function_words.hpp"
+#include "floatframe/yaml/expressions_read.hpp"
 
 namespace floatframe {
 namespace {
@@ -231,7 +232,9 @@ ParameterValue substitute_parameters(std::string_view text, const ParameterScope
     if (open == std::string_view::npos) break;
     const std::size_t close = text.find('}', open);
     if (close == std::string_view::npos) throw ExpressionError("a '}' is missing");
-    ParameterValue v = evaluate_expression(text.substr(open + 2, close - open - 2), scope, suggest);
+    const std::string_view inside = text.substr(open + 2, close - open - 2);
+    ParameterValue v = evaluate_expression(inside, scope, suggest);
+    if (auto* read = ExpressionsRead::current()) read->evaluated(inside, scope, v);
     if (open == 0 && close + 1 == text.size()) return v;
     append(text.substr(at, open - at));
     append(value_text(v));

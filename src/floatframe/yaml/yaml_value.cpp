@@ -4,6 +4,7 @@
 
 #include "floatframe/core/printable.hpp"
 #include "floatframe/core/suggest.hpp"
+#include "floatframe/yaml/expressions_read.hpp"
 
 namespace floatframe {
 
@@ -98,6 +99,9 @@ std::optional<double> YamlValue::number_by(const Rule& rule) const {
   const auto s = scalar(rule.expectation());
   if (!s) return std::nullopt;
   const double* x = std::get_if<double>(&*s);
+  if constexpr (std::is_same_v<Rule, NumberRule>)
+    if (auto* read = ExpressionsRead::current(); read && x)
+      read->stands_at(node_->text, *context_->scope, rule.unit);
   if (x && rule.holds(*x)) return *x;
   unexpected(rule.expectation(), x ? ErrorCode::out_of_range : ErrorCode::not_a_number);
   return std::nullopt;

@@ -105,12 +105,15 @@ namespace {
 
 constexpr const char* magic_forms[] = {"manual", "book"};
 
+constexpr FileContent magic_tyre_file = {described_by<&MagicFormulaTyre::text>, tir_text};
+
 constexpr ElementKey magic_tyre_own[] = {
     {.name = "file",
      .kind = KeyKind::file,
      .about = "tyre property file (`.tir`) of MF 5.2, 6.1 or 6.2",
      .required = true,
-     .member = described_by<&MagicFormulaTyre::file>},
+     .member = described_by<&MagicFormulaTyre::file>,
+     .content = &magic_tyre_file},
     {.name = "form",
      .kind = KeyKind::word,
      .about = "slip angle and camber in rad, or their tangent and sine",
@@ -152,10 +155,11 @@ MagicTyreData magic_tyre_data(const TirFile& file, const MagicFormulaTyre& keys)
 bool magic_tyre_build(ElementBuild& build) {
   MagicFormulaTyre& keys = build.keys<MagicFormulaTyre>();
   try {
-    const std::string text = tir_text(keys.file);
+    const std::string text = keys.text.empty() ? tir_text(keys.file) : keys.text;
     const MagicTyreData data = magic_tyre_data(parse_tir(text, keys.file), keys);
     if (keys.damping == 0.0) keys.damping = data.tyre.damping;
     keys.file = content_hash(text);
+    keys.text.clear();
     build.element.data = std::make_shared<const MagicTyreData>(data);
   } catch (const InputError& wrong) {
     for (const ErrorEntry& entry : wrong.errors()) build.error(entry.code, entry.text());
