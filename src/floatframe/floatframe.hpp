@@ -11,7 +11,6 @@
 #include "floatframe/body.hpp"
 #include "floatframe/errors.hpp"
 #include "floatframe/fmu.hpp"
-#include "floatframe/fmu.hpp"
 #include "floatframe/history.hpp"
 #include "floatframe/model.hpp"
 #include "floatframe/part.hpp"
