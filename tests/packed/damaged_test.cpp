@@ -3,7 +3,9 @@
 // fit again.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+#include <vector>
 
 #include "floatframe/packed/pack.hpp"
 #include "floatframe/packed/pass_formula.hpp"
@@ -16,13 +18,13 @@ namespace {
 
 std::vector<std::byte> valid_bytes() {
   ModelDescription d = valid_description();
-  d.roads[0].surface =
-      std::make_shared<const RoadSurface>(RoadSurface{.height = formula("0.1*sin(x) + max(y, 0)"),
-                                                      .grid = nullptr,
-                                                      .crg = nullptr,
-                                                      .tracks = nullptr,
-                                                      .friction = 0.8,
-                                                      .patches = {{0.0, 1.0, 0.0, 1.0, 0.3}}});
+  auto surface = std::make_shared<RoadSurface>();
+  surface->height = formula("0.1*sin(x) + max(y, 0)");
+  surface->friction = 0.8;
+  surface->patches = {{0.0, 1.0, 0.0, 1.0, 0.3}};
+  d.roads.emplace_back();
+  d.roads.back().name = "wide";
+  d.roads.back().surface = surface;
   const Model model = build_model(d);
   PackedModel out = packed(d, model);
   out.tune({{"a", "N", "a number", 1.0}}, {formula("2*a")},
@@ -56,7 +58,7 @@ TEST(DamagedModel, EveryChangedByteIsSeen) {
 TEST(DamagedModel, ChangedBytesBehindTheChecksumAreRefusedOrBuild) {
   const std::vector<std::byte> valid = valid_bytes();
   std::mt19937 random(3);
-  for (std::size_t k = 40; k < valid.size(); ++k)
+  for (std::size_t k = 40; k < valid.size(); k += 5)
     for (int how = 0; how < 2; ++how) {
       std::vector<std::byte> bytes = valid;
       bytes[k] ^= how == 0 ? std::byte(1u << (k % 8)) : std::byte(1 + random() % 255);
@@ -69,9 +71,7 @@ TEST(DamagedModel, CutOrLengthened) {
   const std::vector<std::byte> valid = valid_bytes();
   for (std::size_t n = 0; n < valid.size(); n += n < 200 ? 1 : 37) {
     std::vector<std::byte> bytes(valid.begin(), valid.begin() + std::ptrdiff_t(n));
-    EXPECT_EQ(error_of([&] { PackedModel::from_bytes(bytes); }), n < 16   ? "wrong_file"
-                                                                 : n < 40 ? "damaged"
-                                                                          : "damaged");
+    EXPECT_EQ(error_of([&] { PackedModel::from_bytes(bytes); }), n < 16 ? "wrong_file" : "damaged");
     seal_packed_model(bytes);
     EXPECT_EQ(what_becomes_of(bytes), n < 16 ? "wrong_file" : "damaged") << n;
   }
