@@ -16,8 +16,8 @@ FE = {"core", "math", "fe"}
 DYNAMICS = {"core", "math", "formulas", "roads", "body", "inertia", "description", "model", "formulation", "integrator"}
 RUNS = {"loops", "tangents", "start", "reactions", "stepping", "run"}
 # The library floatframe_tools (src/CMakeLists.txt). Only the command line uses it besides.
-TOOLS = {"advice", "history", "results", "page", "export", "realtime", "sweep", "validation", "vehicle", "analyses"}
-HEADERS_OF_TOOLS = {"analysis.hpp", "history.hpp", "realtime.hpp", "sweep.hpp", "floatframe.hpp"}
+TOOLS = {"advice", "history", "results", "page", "export", "realtime", "sweep", "validation", "vehicle", "analyses", "fmu"}
+HEADERS_OF_TOOLS = {"analysis.hpp", "fmu.hpp", "history.hpp", "realtime.hpp", "sweep.hpp", "floatframe.hpp"}
 ALLOWED = {
     "core": set(),
     "math": {"core"},
@@ -47,6 +47,8 @@ ALLOWED = {
     # What the user says, and its checks.
     "description": FE | {"formulas", "roads", "body", "reduction"},
     "model": FE | {"formulas", "roads", "body", "reduction", "inertia", "description", "tyres"},
+    # Models in one file: what they are read and built with knows neither finite elements nor their reduction.
+    "packed": {"core", "math", "formulas", "roads", "body", "description", "model"},
     "formulation": {"core", "math", "formulas", "roads", "body", "inertia", "description", "model"},
     "integrator": {"core", "math", "formulas", "roads", "body", "inertia", "description", "model", "formulation"},
     # From the model at rest to results: each uses those before it.
@@ -71,8 +73,9 @@ ALLOWED = {
     "validation": DYNAMICS | RUNS | {"linear", "yaml", "page", "results"},
     "vehicle": DYNAMICS | RUNS | {"results"},
     "analyses": DYNAMICS | RUNS | {"linear", "rotors", "advice", "page", "results", "formats/body_file", "formats/matlab", "model_file"},
+    "fmu": {"core", "math", "body", "inertia", "description", "formulas", "model", "packed", "page", "formats/body_file"},
     "apps": DYNAMICS | FE | RUNS | {"reduction", "formats/body_file", "formats/sid", "formats/text", "parts", "linear", "realtime",
-                             "model_file", "history", "page", "results", "export", "analyses", "sweep", "validation", "vehicle"},
+                             "model_file", "history", "page", "results", "export", "analyses", "sweep", "validation", "vehicle", "packed", "fmu"},
     # The benchmarks of the program, in the folder bench of the project, which no other room may include.
     "bench": DYNAMICS | FE | RUNS | {"reduction", "model_file", "apps"},
 }
@@ -80,7 +83,7 @@ ALLOWED = {
 # Rooms, and single files, that public headers may reach.
 PUBLIC = {"core", "math", "formulas", "roads", "body", "inertia", "fe", "reduction", "formats", "formats/body_file", "formats/sid", "parts", "description",
           "model", "model_file",
-          "formulation/counts.hpp", "loops", "tangents", "start", "stepping", "run", "linear", "rotors", "advice", "history", "page", "results", "analyses", "realtime", "sweep"}
+          "formulation/counts.hpp", "loops", "tangents", "start", "stepping", "run", "linear", "rotors", "advice", "history", "page", "results", "analyses", "realtime", "sweep", "packed", "fmu"}
 FOREIGN = re.compile(r'\s*#\s*include\s*<(?!floatframe/)(?!Eigen/)([^>]*[./-][^>]*)>')
 # What programs and modules beside the library see of it.
 OUTSIDE = {"main": {"apps/command_line.hpp", "bench/bench_command.hpp"}, "mpi": {"sweep/ranks.hpp"},

@@ -57,20 +57,13 @@ Option inertia_option(std::string& word, std::string help) {
   return word_option("--inertia", word, {"preprocessing", "projection"}, std::move(help));
 }
 
-namespace {
-
-/// Targets of --set: parameters of the model file, or options of the simulation.
-struct Settings {
-  std::vector<ParameterOverride> parameters, options;
-};
-
-Settings settings_of(const ModelArguments& arguments) {
+ModelSettings settings_of(const ModelArguments& arguments) {
   constexpr std::string_view prefix = "simulation.";
   const std::vector<std::string>& known = simulation_option_names();
   const auto is_among = [](const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
-  Settings settings;
+  ModelSettings settings;
   std::optional<std::vector<std::string>> parameters;  // read only where a name may mean either
   for (const std::string& setting : arguments.settings) {
     const auto [name, value] = setting_of(setting);
@@ -98,10 +91,8 @@ void set_options(const std::vector<ParameterOverride>& options, SimulationDescri
   errors.throw_if_any();
 }
 
-}  // namespace
-
 ModelDescription read_model(const ModelArguments& arguments, bool quiet, ModelFingerprint* used) {
-  const Settings settings = settings_of(arguments);
+  const ModelSettings settings = settings_of(arguments);
   ReadOptions options;
   if (!quiet) options.say = say_line;
   options.keep_text = used != nullptr;

@@ -10,6 +10,7 @@
 #include "floatframe/core/output_files.hpp"
 #include "floatframe/core/plural.hpp"
 #include "floatframe/description/description.hpp"
+#include "floatframe/model_file/parameter_override.hpp"
 
 namespace floatframe {
 
@@ -38,6 +39,14 @@ struct ModelArguments {
 std::vector<Option> model_options(ModelArguments& arguments);
 /// `first`, then `second`.
 std::vector<Option> joined(std::vector<Option> first, const std::vector<Option>& second);
+/// Targets of --set: parameters of the model file, and options of its section simulation.
+struct ModelSettings {
+  std::vector<ParameterOverride> parameters, options;
+};
+/// Reads the names of the parameters where a name may mean either. Throws InputError.
+ModelSettings settings_of(const ModelArguments& arguments);
+/// Throws InputError.
+void set_options(const std::vector<ParameterOverride>& options, SimulationDescription& simulation);
 /// "NAME=VALUE" of --set. Throws InputError.
 std::pair<std::string, std::string> setting_of(const std::string& text);
 /// --coordinates and --inertia.

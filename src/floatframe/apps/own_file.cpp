@@ -86,7 +86,7 @@ bool is_own_text(std::string_view text, const std::string& ending) {
   if (ending == ".html") return is_page(text);
   if (text.starts_with("{") || ending == ".json") return is_own_json(text);
   if (ending == ".ffr" || ending == ".checkpoint" || ending == ".ffb" || ending == ".npz" ||
-      ending == ".glb" || ending == ".mat")
+      ending == ".glb" || ending == ".mat" || ending == ".ffm")
     return false;
   return is_own_table(text) || is_journal(text) || is_page(text) || is_picture(text) ||
          is_grid(text) || holds(text, own_mark) || holds(text, " by Floatframe ");
@@ -104,6 +104,7 @@ bool is_own_binary(const std::string& path, std::string_view bytes) {
   if (bytes.starts_with("PK\x03\x04"))
     return holds(bytes.substr(0, 256), "floatframe body") || has_own_comment(path);
   return bytes.starts_with("floatfr\n") || bytes.starts_with("ffcheck\n") ||
+         bytes.starts_with("floatframe-model") ||
          bytes.starts_with("MATLAB 5.0 MAT-file, written by Floatframe") ||
          (bytes.starts_with("glTF") && holds(bytes, "\"generator\":\"Floatframe"));
 }

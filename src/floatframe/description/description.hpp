@@ -17,6 +17,7 @@
 #include "floatframe/body/flexible_body.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/description/elements.hpp"
+#include "floatframe/description/hints.hpp"
 #include "floatframe/description/joint_list.hpp"
 #include "floatframe/description/output_list.hpp"
 #include "floatframe/description/vehicle_description.hpp"
@@ -313,6 +314,8 @@ struct ModelDescription {
   std::map<std::string, VecX> amplitudes, amplitude_rates;
   std::optional<VehicleDescription> vehicle;  ///< its roles, for manoeuvres
   SimulationDescription simulation;
+  /// Hints that were found when the model was packed; null: `build_model` finds them.
+  std::shared_ptr<const ModelHints> hints = nullptr;
 
   const std::vector<ElementDescription>& elements(ElementList list) const {
     return list == ElementList::rods          ? rods

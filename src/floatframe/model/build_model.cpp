@@ -66,7 +66,7 @@ Model build_model(const ModelDescription& description, const ReduceBody& reduce,
   b.modal_masses();
   b.finish();
   b.errors.throw_if_any();
-  ModelHints hints = find_hints(description, b.model);
+  ModelHints hints = description.hints ? *description.hints : find_hints(description, b.model);
   found.notes.insert(found.notes.end(), hints.notes.begin(), hints.notes.end());
   found.bending = std::move(hints.bending);
   b.model.hints = std::move(found);

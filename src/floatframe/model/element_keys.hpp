@@ -3,6 +3,7 @@
 // Reader, validation, mirror and the table of the documentation use these tables. Load time
 // only.
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -77,6 +78,8 @@ using KeyValue =
 struct KeyMember {
   std::optional<KeyValue> (*read)(const ElementDescription&) = nullptr;
   void (*write)(ElementDescription&, const KeyValue&) = nullptr;
+  /// Where it lies in the description, for tests that no member of a struct is without a key.
+  std::span<const std::byte> (*bytes)(const ElementDescription&) = nullptr;
 };
 
 /// The content of a file: the member that keeps it, empty: it is read when the element is built.
@@ -130,13 +133,18 @@ void write(ElementDescription& f, const KeyValue& value) {
   else
     x = std::get<T>(value);
 }
+template <class S, auto member>
+std::span<const std::byte> bytes(const ElementDescription& f) {
+  return std::as_bytes(std::span(&(std::get<S>(f.kind).*member), 1));
+}
 template <class S, class T>
 S owner(T S::*);
 }  // namespace key_member
 
 /// `.member = member<Tyre, &Tyre::radius>`, or `described_by<&Tyre::radius>`
 template <class S, auto m>
-inline constexpr KeyMember member = {key_member::read<S, m>, key_member::write<S, m>};
+inline constexpr KeyMember member = {key_member::read<S, m>, key_member::write<S, m>,
+                                     key_member::bytes<S, m>};
 template <auto m>
 inline constexpr KeyMember described_by = member<decltype(key_member::owner(m)), m>;
 

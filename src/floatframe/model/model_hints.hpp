@@ -1,38 +1,12 @@
 #pragma once
 // Valid but unusual features of a description - units, angles in degrees, a missing key - and the
 // bending stiffness of bars: shown by `check`. Hints are never errors.
-#include <array>
-#include <string>
-#include <vector>
-
-#include "floatframe/math/types.hpp"
+#include "floatframe/description/hints.hpp"
 
 namespace floatframe {
 
 struct Model;
 struct ModelDescription;
-
-/// The bending of bars of one body that have the same section and orientation.
-struct BarBending {
-  int body = -1;
-  std::vector<std::string> bars;      ///< names
-  std::array<double, 2> stiffness{};  ///< E I, the larger one first [N m2]
-  std::array<Vec3, 2> direction{};    ///< they bend along, unit vectors, design configuration
-  /// Both stiffnesses are equal, and therefore equal in every direction.
-  bool alike() const noexcept { return stiffness[0] - stiffness[1] <= 1e-9 * stiffness[0]; }
-};
-
-/// Loops that cannot move because an axis or a point of a joint is misaligned.
-struct LockedLoops {
-  std::string sentence;
-  bool driven = false;  ///< a prescribed motion moves a joint of theirs
-};
-
-struct ModelHints {
-  std::vector<std::string> notes;   ///< a sentence each
-  std::vector<LockedLoops> locked;  ///< also reported by runs and statics
-  std::vector<BarBending> bending;
-};
 
 /// For a description without errors and the model built from it.
 ModelHints model_hints(const ModelDescription& description, const Model& model);

@@ -51,7 +51,7 @@ bool fits(const ProjectionData& d, Eigen::Index modes) {
 bool fits(const BodyStress& x, Eigen::Index modes, std::size_t nodes, std::size_t points) {
   const auto rows = [&](const MatX& m, const MatX& loads, std::size_t count) {
     const Eigen::Index n = 6 * Eigen::Index(count);
-    return (has_size(m, n, modes) || (n == 0 && m.size() == 0)) &&
+    return (has_size(m, n, modes) || (m.size() == 0 && n * modes == 0)) &&
            (loads.size() == 0 || has_size(loads, n, body_load_cases + modes));
   };
   bool good = rows(x.modes, x.loads, x.places.size()) &&
@@ -76,7 +76,8 @@ const char* shape_damage(const BodyShape& x, Eigen::Index modes, std::size_t nod
   for (const auto& line : x.lines)
     for (const int k : line) good = good && is_index(k, n);
   good = good && (x.nodes.empty() || x.nodes.size() == n);
-  for (const auto& bar : x.bars) good = good && is_index(bar.from, nodes) && is_index(bar.to, nodes);
+  for (const auto& bar : x.bars)
+    good = good && is_index(bar.from, nodes) && is_index(bar.to, nodes);
   return good ? nullptr : "a shape whose points do not exist";
 }
 

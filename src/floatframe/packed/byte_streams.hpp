@@ -6,6 +6,7 @@
 //   whole numbers   groups of seven bits, the lowest first
 //   doubles         little-endian, bit by bit; only finite ones are read
 //   texts           short ones by their number if they have been there before
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -17,6 +18,7 @@
 #include <span>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "floatframe/core/diagnostics.hpp"
@@ -166,9 +168,13 @@ template <class S, class... T>
 void all(S& s, T&... x);
 
 template <class S>
-void pass(S& s, double& x) { s.reals(&x, 1); }
+void pass(S& s, double& x) {
+  s.reals(&x, 1);
+}
 template <class S>
-void pass(S& s, std::string& x) { s.text(x); }
+void pass(S& s, std::string& x) {
+  s.text(x);
+}
 template <class S>
 void pass(S& s, bool& x) {
   const std::uint64_t n = s.whole(x ? 1 : 0);
@@ -259,8 +265,13 @@ template <class S, class T>
 void pass(S& s, std::shared_ptr<const T>& x) {
   bool there = x != nullptr;
   pass(s, there);
-  if constexpr (S::reads) x = there ? std::make_shared<const T>() : nullptr;
-  if (there) pass(s, const_cast<T&>(*x));  // made above, or a writer, which changes nothing
+  if constexpr (S::reads) {
+    std::shared_ptr<T> made;
+    if (there) pass(s, *(made = std::make_shared<T>()));
+    x = std::move(made);
+  } else if (there) {
+    pass(s, const_cast<T&>(*x));  // a writer changes nothing
+  }
 }
 
 // A matrix: rows and columns as far as its type leaves them open, then columns.
@@ -282,7 +293,9 @@ void pass(S& s, Eigen::Matrix<double, rows, columns>& x) {
 }
 
 template <class S, class... T>
-void all(S& s, T&... x) { (pass(s, x), ...); }
+void all(S& s, T&... x) {
+  (pass(s, x), ...);
+}
 
 template <class S>
 void pass(S& s, SourceMark& x) {

@@ -30,7 +30,9 @@ std::size_t shared_data(std::vector<BodyData>& known, const std::vector<std::byt
 }
 
 template <class S>
-void pass_frames(S& s, BodyDescription& b) { all(s, b.mirror, b.X_WT); }
+void pass_frames(S& s, BodyDescription& b) {
+  all(s, b.mirror, b.X_WT);
+}
 
 void write_bodies(ByteWriter& s, ModelDescription& d) {
   std::vector<BodyData> known;
@@ -114,7 +116,9 @@ ModelDescription description_of(std::span<const std::byte> bytes) {
   return d;
 }
 
-std::uint64_t description_layout() {
+namespace {
+
+std::uint64_t layout_of_keys() {
   ContentHash hash;
   for (const ElementType type : element_types) {
     hash.add(std::string_view(element_type_name(type)));
@@ -126,6 +130,13 @@ std::uint64_t description_layout() {
   for (const char* one : joint_words) hash.add(std::string_view(one));
   for (const char* one : output_words) hash.add(std::string_view(one));
   return std::stoull(hash.text().substr(16), nullptr, 16);
+}
+
+}  // namespace
+
+std::uint64_t description_layout() {
+  static const std::uint64_t layout = layout_of_keys();
+  return layout;
 }
 
 }  // namespace floatframe

@@ -129,7 +129,8 @@ bool has_gauge(const Model& model, std::size_t body) {
 
 FlexibleBody packed_body(const Model& model, std::size_t index, const PackOptions& options) {
   FlexibleBody body = *model.bodies[index].data;
-  if (model.simulation.inertia != InertiaMethod::projection && body.mass_model != MassModel::six_dof)
+  if (model.simulation.inertia != InertiaMethod::projection &&
+      body.mass_model != MassModel::six_dof)
     body.projection = nullptr;
   if (options.contents != PackOptions::Contents::steps) return body;
   body.shape = nullptr;
@@ -170,6 +171,7 @@ bool is_same(const PackedModel& packed, const Model& model) {
 ModelDescription with_reduced_bodies(const ModelDescription& description, const Model& model,
                                      const PackOptions& options) {
   ModelDescription d = description;
+  d.hints = nullptr;
   for (std::size_t i = 0; i < d.bodies.size(); ++i) {
     BodyDescription& b = d.bodies[i];
     if (auto* rigid = std::get_if<RigidDescription>(&b.kind)) {

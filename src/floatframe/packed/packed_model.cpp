@@ -12,6 +12,30 @@
 #include "floatframe/packed/pass_formula.hpp"
 
 namespace floatframe {
+// Found by their arguments, as all that is passed.
+template <class S>
+void pass(S& s, PackedParameter& p) {
+  auto& [name, unit, about, value] = p;
+  all(s, name, unit, about, value);
+}
+template <class S>
+void pass(S& s, PackedExpression& e) {
+  auto& [formula, offset, factor] = e;
+  formula = std::uint32_t(s.whole(formula));
+  offset = std::uint32_t(s.whole(offset));
+  pass(s, factor);
+}
+template <class S>
+void pass(S& s, BarBending& b) {
+  auto& [body, bars, stiffness, direction] = b;
+  all(s, body, bars, stiffness, direction);
+}
+/// Without loops that are locked: they are found when the model is built.
+template <class S>
+void pass(S& s, ModelHints& h) {
+  all(s, h.notes, h.bending);
+}
+
 namespace {
 
 constexpr std::string_view magic = "floatframe-model";
@@ -47,29 +71,6 @@ std::string hexadecimal(std::uint64_t n) {
   std::string out;
   for (int shift = 60; shift >= 0; shift -= 4) out += "0123456789abcdef"[(n >> shift) & 15u];
   return out;
-}
-
-template <class S>
-void pass(S& s, PackedParameter& p) {
-  auto& [name, unit, about, value] = p;
-  all(s, name, unit, about, value);
-}
-template <class S>
-void pass(S& s, PackedExpression& e) {
-  auto& [formula, offset, factor] = e;
-  formula = std::uint32_t(s.whole(formula));
-  offset = std::uint32_t(s.whole(offset));
-  pass(s, factor);
-}
-template <class S>
-void pass(S& s, BarBending& b) {
-  auto& [body, bars, stiffness, direction] = b;
-  all(s, body, bars, stiffness, direction);
-}
-/// Without loops that are locked: they are found when the model is built.
-template <class S>
-void pass(S& s, ModelHints& h) {
-  all(s, h.notes, h.bending);
 }
 
 void append(std::vector<std::byte>& bytes, const std::vector<std::byte>& section) {
@@ -138,7 +139,6 @@ PackedModel PackedModel::from_bytes(std::span<const std::byte> bytes) {
   all(t, parameters, formulas, expressions);
   ByteReader::require(n.at_end() && t.at_end(), "it goes on behind its end");
   out.tune(std::move(parameters), std::move(formulas), std::move(expressions));
-  static_cast<void>(out.description());  // the rest of the bytes
   return out;
 }
 
@@ -158,7 +158,9 @@ std::vector<std::byte> PackedModel::to_bytes() const {
   return bytes;
 }
 
-std::string PackedModel::fingerprint() const { return hexadecimal(word_at(to_bytes(), checksum_at)); }
+std::string PackedModel::fingerprint() const {
+  return hexadecimal(word_at(to_bytes(), checksum_at));
+}
 
 int PackedModel::find_parameter(std::string_view name) const noexcept {
   const auto it = std::ranges::find(parameters_, name, &PackedParameter::name);
@@ -170,8 +172,8 @@ void PackedModel::tune(std::vector<PackedParameter> parameters, std::vector<Shar
   std::set<std::string_view> names;
   for (const PackedParameter& p : parameters)
     if (!names.insert(p.name).second)
-      throw InputError(ErrorCode::duplicate, "found the parameter '" + p.name +
-                                                 "' twice, expected each once");
+      throw InputError(ErrorCode::duplicate,
+                       "found the parameter '" + p.name + "' twice, expected each once");
   for (const SharedFormula& f : formulas) {
     ByteReader::require(f != nullptr, "a formula that is missing");
     for (const FormulaReference& r : f->references)
@@ -180,9 +182,9 @@ void PackedModel::tune(std::vector<PackedParameter> parameters, std::vector<Shar
                                                    "', expected the name of a parameter");
   }
   for (const PackedExpression& e : expressions)
-    ByteReader::require(e.formula < formulas.size() && e.offset + std::uint64_t{8} <=
-                                                           content_.bytes.size(),
-                        "a number that does not exist");
+    ByteReader::require(
+        e.formula < formulas.size() && e.offset + std::uint64_t{8} <= content_.bytes.size(),
+        "a number that does not exist");
   parameters_ = std::move(parameters);
   formulas_ = std::move(formulas);
   expressions_ = std::move(expressions);
@@ -190,9 +192,9 @@ void PackedModel::tune(std::vector<PackedParameter> parameters, std::vector<Shar
 
 std::vector<std::byte> PackedModel::with_values(std::span<const double> values) const {
   if (values.size() != parameters_.size())
-    throw InputError(ErrorCode::wrong_count,
-                     "found " + std::to_string(values.size()) + " values of parameters, expected " +
-                         std::to_string(parameters_.size()));
+    throw InputError(ErrorCode::wrong_count, "found " + std::to_string(values.size()) +
+                                                 " values of parameters, expected " +
+                                                 std::to_string(parameters_.size()));
   for (std::size_t k = 0; k < values.size(); ++k)
     if (!std::isfinite(values[k]))
       throw InputError(ErrorCode::not_finite, "found a value of the parameter '" +
@@ -217,7 +219,9 @@ std::vector<std::byte> PackedModel::with_values(std::span<const double> values) 
 }
 
 ModelDescription PackedModel::description(std::span<const double> values) const {
-  return description_of(values.empty() ? content_.bytes : with_values(values));
+  ModelDescription d = description_of(values.empty() ? content_.bytes : with_values(values));
+  d.hints = std::make_shared<const ModelHints>(hints_);
+  return d;
 }
 
 Model PackedModel::build(std::span<const double> values) const {
@@ -226,7 +230,7 @@ Model PackedModel::build(std::span<const double> values) const {
       [](const BodyDescription&, bool, ErrorList&) -> std::shared_ptr<const FlexibleBody> {
         ByteReader::damaged("a body that is not reduced");
       },
-      [this](const ModelDescription&, const Model&) { return hints_; });
+      [](const ModelDescription&, const Model&) { return ModelHints(); });
 }
 
 PackedModel read_packed_model(const std::string& path) {

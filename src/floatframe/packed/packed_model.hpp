@@ -33,7 +33,8 @@ struct PackedExpression {
 
 class PackedModel {
  public:
-  /// InputError: no packed model, damaged, or of another version.
+  /// InputError: no packed model, damaged, or of another version. What the description says is
+  /// checked when it is asked for.
   static PackedModel from_bytes(std::span<const std::byte> bytes);
   /// Of a description whose flexible bodies are reduced, and the notes about it (`model_hints`).
   PackedModel(const ModelDescription& description, ModelHints hints);
@@ -44,6 +45,7 @@ class PackedModel {
 
   /// Name of the model.
   const std::string& name() const noexcept { return name_; }
+  /// Those of `model_hints` when it was packed.
   const ModelHints& hints() const noexcept { return hints_; }
 
   /// Its parameters, and the numbers of the content that follow from them; offsets are those of

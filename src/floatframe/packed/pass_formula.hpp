@@ -38,8 +38,8 @@ void pass(S& s, GridTable& g) {
   auto& [x, y, values] = g;
   all(s, x, y, values);
   if constexpr (S::reads) {
-    bool good = x.size() > 1 && y.size() > 1 && values.rows() == x.size() &&
-                values.cols() == y.size();
+    bool good =
+        x.size() > 1 && y.size() > 1 && values.rows() == x.size() && values.cols() == y.size();
     for (const VecX* v : {&x, &y})
       for (Eigen::Index k = 1; k < v->size(); ++k) good = good && (*v)[k - 1] < (*v)[k];
     s.require(good, "a table that is no grid");

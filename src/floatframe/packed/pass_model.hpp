@@ -71,13 +71,21 @@ void pass(S& s, ElementDescription& e) {
 // bodies: what a reduction changes stands behind everything else
 
 template <class S>
-void pass(S& s, SolidRound& x) { pass(s, x.diameter); }
+void pass(S& s, SolidRound& x) {
+  pass(s, x.diameter);
+}
 template <class S>
-void pass(S& s, HollowRound& x) { all(s, x.outer, x.inner); }
+void pass(S& s, HollowRound& x) {
+  all(s, x.outer, x.inner);
+}
 template <class S>
-void pass(S& s, Rectangle& x) { all(s, x.width, x.height); }
+void pass(S& s, Rectangle& x) {
+  all(s, x.width, x.height);
+}
 template <class S>
-void pass(S& s, SectionConstants& x) { all(s, x.A, x.Iy, x.Iz, x.J); }
+void pass(S& s, SectionConstants& x) {
+  all(s, x.A, x.Iy, x.Iz, x.J);
+}
 template <class S>
 void pass(S& s, BarDescription& x) {
   auto& [name, from, to, from_bar, from_fraction, elements, section, reference, origin] = x;
@@ -271,11 +279,12 @@ void pass(S& s, VehicleDescription& x) {
   auto& [chassis, driver, axles, steering, drive, brake, width, front, rear, origin] = x;
   all(s, chassis, driver, axles, steering, drive, brake, width, front, rear, origin);
 }
-/// Without the data of bodies, which follow.
+/// Without the data of bodies, which follow, and hints, which have a section of their own.
 template <class S>
 void pass(S& s, ModelDescription& d) {
   auto& [name, gravity, snap, bodies, joints, rods, constraints, couplings, controllers, forces,
-         roads, inputs, outputs, measures, amplitudes, amplitude_rates, vehicle, simulation] = d;
+         roads, inputs, outputs, measures, amplitudes, amplitude_rates, vehicle, simulation,
+         hints] = d;
   all(s, name, gravity, snap, bodies, joints, rods, constraints, couplings, controllers, forces,
       roads, inputs, outputs, measures, amplitudes, amplitude_rates, vehicle, simulation);
 }

@@ -44,10 +44,9 @@ class ReferenceLine {
     std::array<double, 2> heading{0.0, 0.0};  ///< of the first and the last step
   };
   explicit ReferenceLine(Numbers x)
-      : ReferenceLine(x.nodes.empty()
-                          ? ReferenceLine(x.u0, x.du, x.steps, x.start, x.heading[0])
-                          : ReferenceLine(x.u0, x.du, std::move(x.nodes), x.heading[0],
-                                          x.heading[1])) {}
+      : ReferenceLine(x.nodes.empty() ? ReferenceLine(x.u0, x.du, x.steps, x.start, x.heading[0])
+                                      : ReferenceLine(x.u0, x.du, std::move(x.nodes), x.heading[0],
+                                                      x.heading[1])) {}
   Numbers numbers() const { return {u0_, du_, steps_, nodes_, start_, heading_}; }
 
   double first() const noexcept { return u0_; }

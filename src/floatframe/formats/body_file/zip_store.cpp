@@ -45,16 +45,37 @@ std::uint32_t crc_of(std::string_view bytes) {
   return static_cast<std::uint32_t>(crc);
 }
 
+/// The content by Deflate without the frame of zlib; empty if that is not smaller.
+std::string deflated(std::string_view content) {
+  // zlib counts in 32 bits, and a bound may be a little larger than the content.
+  if (content.empty() || content.size() > largest / 2) return "";
+  z_stream stream{};
+  if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, -MAX_WBITS, 8, Z_DEFAULT_STRATEGY) !=
+      Z_OK)
+    return "";
+  std::string out(deflateBound(&stream, content.size()), '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(content.data()));
+  stream.avail_in = static_cast<uInt>(content.size());
+  stream.next_out = reinterpret_cast<Bytef*>(out.data());
+  stream.avail_out = static_cast<uInt>(out.size());
+  const bool done = deflate(&stream, Z_FINISH) == Z_STREAM_END;
+  out.resize(done && stream.total_out < content.size() ? stream.total_out : 0);
+  deflateEnd(&stream);
+  return out;
+}
+
 /// The common part of the local header and the directory entry: version to checksum, sizes, name.
-void put_common(std::string& out, const ZipMember& m, std::uint32_t crc) {
-  constexpr std::size_t stored = 0, midnight = 0, extra_field = 0;
+/// `packed`: the compressed content, or empty.
+void put_common(std::string& out, const ZipMember& m, const std::string& packed,
+                std::uint32_t crc) {
+  constexpr std::size_t midnight = 0, extra_field = 0;
   put(out, {{2, needed_version},
             {2, utf8_names},
-            {2, stored},
+            {2, packed.empty() ? std::size_t{0} : std::size_t{Z_DEFLATED}},
             {2, midnight},
             {2, first_january_1980},
             {4, crc},
-            {4, m.content.size()},
+            {4, packed.empty() ? m.content.size() : packed.size()},
             {4, m.content.size()},
             {2, m.name.size()},
             {2, extra_field}});
@@ -186,13 +207,14 @@ std::string zip_archive(const std::vector<ZipMember>& members) {
   out.reserve(total);
   for (const ZipMember& m : members) {
     const std::uint32_t crc = crc_of(m.content);
+    const std::string packed = m.compressed ? deflated(m.content) : "";
     const std::size_t place = out.size();
     put(out, {{4, local_mark}});
-    put_common(out, m, crc);
+    put_common(out, m, packed, crc);
     out += m.name;
-    out += m.content;
+    out += packed.empty() ? m.content : packed;
     put(directory, {{4, entry_mark}, {2, needed_version}});
-    put_common(directory, m, crc);
+    put_common(directory, m, packed, crc);
     // No comment, the first volume, no attributes.
     put(directory, {{2, 0}, {2, 0}, {2, 0}, {4, 0}, {4, place}});
     directory += m.name;

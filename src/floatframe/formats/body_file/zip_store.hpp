@@ -1,6 +1,7 @@
 #pragma once
 // Zip archives whose members are stored without compression, so that a reader may use the bytes in
-// place. Times are fixed: equal members give equal bytes. Below 4 GB and 65535 members (no zip64).
+// place, or compressed for other programs. Times are fixed: equal members give equal bytes. Below
+// 4 GB and 65535 members (no zip64).
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,7 @@ namespace floatframe {
 struct ZipMember {
   std::string name;
   std::string_view content;
+  bool compressed = false;  ///< by Deflate, where that makes it smaller
 };
 
 /// The bytes of an archive. Throws InputError if it would be too large for the format.

@@ -1,0 +1,87 @@
+// floatframe pack: a model in one file.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "floatframe/apps/commands.hpp"
+#include "floatframe/core/atomic_file.hpp"
+#include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/text_pieces.hpp"
+#include "floatframe/model_file/keep_outputs.hpp"
+#include "floatframe/model_file/pack_model.hpp"
+
+namespace floatframe {
+namespace {
+
+struct PackArguments {
+  ModelArguments model;
+  std::string out, outputs;
+  bool small = false, overwrite = false, quiet = false;
+};
+
+PackedModel packed_model_of(const PackArguments& a, std::vector<std::string>& fixed) {
+  const ModelSettings settings = settings_of(a.model);
+  ModelPacking packing;
+  if (a.small) packing.contents.contents = PackOptions::Contents::steps;
+  std::vector<std::string> names;
+  if (!a.outputs.empty()) names = pieces_of(a.outputs, ',');
+  packing.change = [&](ModelDescription& description) {
+    set_options(settings.options, description.simulation);
+    if (!names.empty()) keep_outputs(description, names);
+  };
+  return pack_model(a.model.path, settings.parameters, packing, &fixed);
+}
+
+int pack_file(const PackArguments& a) {
+  const std::string out =
+      a.out.empty() ? std::filesystem::path(a.model.path).stem().string() + ".ffm" : a.out;
+  require_writable({{"-o", out}}, {a.model.path}, a.overwrite);
+  if (is_packed_file(a.model.path))
+    throw InputError(ErrorCode::wrong_file, {a.model.path, 0, 0},
+                     "found a packed model, expected the model file that it was packed from");
+  std::vector<std::string> fixed;
+  const PackedModel model = packed_model_of(a, fixed);
+  const std::vector<std::byte> bytes = model.to_bytes();
+  std::string content(bytes.size(), '\0');
+  std::transform(bytes.begin(), bytes.end(), content.begin(),
+                 [](std::byte b) { return static_cast<char>(b); });
+  write_file(out, content);
+  std::vector<std::string> parameters;
+  for (const PackedParameter& p : model.parameters()) parameters.push_back(p.name);
+  print(fmt::format("{}: {} bytes, fingerprint {}\n  parameters  {}\n", out, bytes.size(),
+                    model.fingerprint(),
+                    parameters.empty() ? "none" : fmt::format("{}", fmt::join(parameters, ", "))));
+  if (!a.quiet)
+    for (const std::string& sentence : fixed) say("note: " + sentence);
+  return exit_code::done;
+}
+
+}  // namespace
+
+Command pack_command() {
+  const auto a = std::make_shared<PackArguments>();
+  return {.name = "pack",
+          .help = "Write a model, built, as one file that is loaded in milliseconds",
+          .options = joined(
+              model_options(a->model),
+              {text_option("-o,--out", a->out, "FILE",
+                           "File to write; default: MODEL.ffm in this folder"),
+               text_option("--outputs", a->outputs, "LIST",
+                           "Outputs to keep, names with commas between them, 'chassis' for all of "
+                           "chassis.x, chassis.y, ...; default: all"),
+               flag("--small", a->small,
+                    "Leave out what steps and outputs do not use: shapes, stress, nodes"),
+               overwrite_option(a->overwrite),
+               flag("--quiet", a->quiet, "No notes; the summary is still printed")}),
+          .footer =
+              "All commands that read a model file read a packed one too, and step it with the "
+              "same bits.\nParameters that take a new value without a build may still be --set; "
+              "notes say why others\nare not. docs/packed-model.md explains all.\n"
+              "Example: floatframe pack examples/iltis/iltis.yaml -o iltis.ffm && floatframe run "
+              "iltis.ffm\n"
+              "Exit codes: 0 done, 2 bad input; files are written atomically.",
+          .run = [a] { return pack_file(*a); }};
+}
+
+}  // namespace floatframe
