@@ -27,9 +27,7 @@ StepOptions& with_limits_of(const StepOptions& before, StepOptions& now) {
 Stepper::Stepper(const Model& changed, const SimulationDescription& options, const Stepper& before)
     : start_(changed, options, before.start_),
       f_(start_.formulation()),
-      step_options_(
-          limited(start_.step_options(), {.fixed_iterations = before.step_options_.fixed_iterations,
-                                          .time_budget = before.step_options_.time_budget})),
+      step_options_(start_.step_options()),
       min_step_(before.min_step_),
       integrator_(make_integrator(f_, with_limits_of(before.step_options_, step_options_))),
       input_use_(before.input_use_),
@@ -64,7 +62,7 @@ bool Simulation::Engine::steps_as(const Model& other) {
     throw InputError(ErrorCode::step_failed,
                      "found a simulation whose last step failed, expected one that can go on: "
                      "restore an earlier state before the model is changed");
-  return same(other, model_).name == model_.name && model_hash(other) == fingerprint();
+  return model_hash(same(other, model_)) == fingerprint();
 }
 
 Simulation::Engine::Engine(const Model& changed, Engine& before)
