@@ -1,7 +1,7 @@
 // The steps of an instance.
 //
-// The importer asks for a step of size H from its own time T. The instance is at t, which may differ
-// from T by what rounding has summed up. With the inner step h:
+// The importer asks for a step of size H from its own time T. The instance is at t, which may
+// differ from T by what rounding has summed up. With the inner step h:
 //   - H = n h within 1e-9 h, and t = T within 1e-3 h: n inner steps, whatever the sums of the
 //     importer are, so that the times stay those of the model;
 //   - else: whole inner steps up to T + H, and a last one shortened to what is left.

@@ -27,8 +27,8 @@ struct Importer {
 
 class Log {
  public:
-  /// Before a choice of categories: `on` chooses all. Else FMI 2 still hears of errors and warnings,
-  /// since its logging "on" is that of debugging; FMI 3 hears nothing.
+  /// Before a choice of categories: `on` chooses all. Else FMI 2 still hears of errors and
+  /// warnings, since its logging "on" is that of debugging; FMI 3 hears nothing.
   Log(const Importer& importer, std::string instance, bool on);
 
   /// fmi2SetDebugLogging: no categories are all. False: one is unknown, which `write` has said.

@@ -10,9 +10,9 @@
 
 namespace floatframe::fmi {
 
-/// Figures of a run, which are variables of the FMU in this order: inner steps, their substeps and
-/// Newton iterations; steps of the importer that took longer than they last, and the largest part of
-/// a step that it took.
+/// Figures of a run, which are variables of the FMU in this order: inner steps, their substeps
+/// and Newton iterations; steps of the importer that took longer than they last, and the largest
+/// part of a step that it took.
 enum class Figure { steps, substeps, iterations, overruns, largest_share };
 inline constexpr int figure_count = 5;
 

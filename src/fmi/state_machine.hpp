@@ -3,9 +3,9 @@
 // section 4.2.4, and the state machine of FMI 3.0, section 4.2, for an FMU without event mode,
 // structural parameters and asynchronous steps.
 //
-// A call that returns an error - one that is not allowed, too - ends the run, as both standards say:
-// FMI 2 calls the state after it "error", FMI 3 "terminated". Values can still be read, a saved state
-// can be set, and a reset begins anew.
+// A call that returns an error - one that is not allowed, too - ends the run, as both standards
+// say: FMI 2 calls the state after it "error", FMI 3 "terminated". Values can still be read, a
+// saved state can be set, and a reset begins anew.
 #include <array>
 
 namespace floatframe::fmi {

@@ -1,6 +1,7 @@
-// Random sequences of calls against the state machines of FMI 2.0 and 3.0: each call has the status that a model of the
-// state machine expects, which knows nothing of the code it judges. It is the table of the standards in letters:
-// I instantiated, N initialization mode, S step mode, T terminated, E error (FMI 3: T).
+// Random sequences of calls against the state machines of FMI 2.0 and 3.0: each call has the
+// status that a model of the state machine expects, which knows nothing of the code it judges. It
+// is the table of the standards in letters: I instantiated, N initialization mode, S step mode, T
+// terminated, E error (FMI 3: T).
 #include <gtest/gtest.h>
 
 #include <cmath>

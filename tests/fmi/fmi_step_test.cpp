@@ -1,5 +1,5 @@
-// Steps of an instance: what of the importer's step becomes inner steps, early return, overruns, failures; and what an
-// instance says to its importer.
+// Steps of an instance: what of the importer's step becomes inner steps, early return, overruns,
+// failures; and what an instance says to its importer.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +7,7 @@
 
 #include "fmi/resources.hpp"
 #include "fmi/versions.hpp"
+#include "support/allocation_counter.hpp"
 
 namespace floatframe::testing {
 namespace {
@@ -142,6 +143,22 @@ TYPED_TEST(FmiStep, OverrunsAreCountedAndSaid) {
   int said = 0;
   for (const auto& category : slow.heard.categories) said += category.second == "logOverrun";
   EXPECT_EQ(said, 2);  // the first and the second
+}
+
+TYPED_TEST(FmiStep, StepsAndValuesDoNotAllocate) {
+  Ready<TypeParam> ready;
+  const std::uint32_t inputs[2] = {input0, input0 + 1}, outputs[2] = {output0, figure0 + 4};
+  const std::uint32_t stiffness = parameter0;
+  double values[2] = {};
+  const test::AllocationScope allocations;
+  for (int k = 0; k < 3; ++k) {
+    const double force[2] = {10.0 * k, 1.0}, softer = 50.0 - k;
+    ASSERT_EQ(TypeParam::set(ready.c, inputs, 2, force), ok);
+    ASSERT_EQ(TypeParam::set(ready.c, &stiffness, 1, &softer), ok);
+    ASSERT_EQ(TypeParam::step(ready.c, 0.015 * k, 0.015), ok);
+    ASSERT_EQ(TypeParam::get(ready.c, outputs, 2, values), ok);
+  }
+  EXPECT_EQ(allocations.count(), 0u);
 }
 
 TYPED_TEST(FmiStep, InstancesRunInThreads) {

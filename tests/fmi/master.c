@@ -135,7 +135,7 @@ static void begin(Master* m) {
   /* One library may have both: the resources decide, a URI for FMI 2. */
   m->version = strncmp(t->resources, "file:", 5) == 0 || !version ? 2 : 3;
   m->c = m->version == 2 ? make2(m->library)("vehicle", fmi2CoSimulation, t->token, t->resources, &importer, fmi2False, fmi2False)
-                         : make3(m->library)("vehicle", t->token, t->resources, false, false, false, false, NULL, 0, NULL, hear3, NULL);
+                         : make3(m->library)("vehicle", t->token, t->resources, false, true, false, false, NULL, 0, NULL, hear3, NULL);
   if (!m->c) exit(1);
 }
 

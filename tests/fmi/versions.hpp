@@ -1,5 +1,6 @@
 #pragma once
-// The functions of FMI 2 and of FMI 3 under one set of names, so that one test goes over both. A status is its number.
+// The functions of FMI 2 and of FMI 3 under one set of names, so that one test goes over both. A
+// status is its number.
 #include <cstdint>
 #include <string>
 #include <utility>
