@@ -57,6 +57,19 @@ if(NOT output MATCHES "mass .* kg\ncaught: ")
   message(FATAL_ERROR "the program with tools: ${output}")
 endif()
 
+# The interface for C beside the public headers, and a project in C alone.
+file(GLOB headers RELATIVE ${WORK}/prefix/include ${WORK}/prefix/include/*)
+if(NOT headers STREQUAL "floatframe;floatframe.h")
+  message(FATAL_ERROR "found ${headers} in the folder of headers, expected floatframe and floatframe.h")
+endif()
+file(COPY ${SOURCE}/c_consumer/ DESTINATION ${WORK}/c_consumer)
+run(${CMAKE_COMMAND} -S ${WORK}/c_consumer -B ${WORK}/c_build -DCMAKE_PREFIX_PATH=${WORK}/prefix -DCMAKE_C_FLAGS=${FLAGS})
+run(${CMAKE_COMMAND} --build ${WORK}/c_build)
+run(${WORK}/c_build/c_consumer ${WORK}/prefix/share/floatframe/examples/flexible_pendulum/flexible_pendulum.yaml)
+if(NOT output MATCHES "flexible_pendulum .*: 0\\.001 s")
+  message(FATAL_ERROR "the program in C: ${output}")
+endif()
+
 # The examples, as somebody would build them, and what they print.
 run(${CMAKE_COMMAND} -S ${WORK}/prefix/share/floatframe/examples/cpp -B ${WORK}/examples -DCMAKE_PREFIX_PATH=${WORK}/prefix
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${FLAGS} "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -Wall -Wextra -Wpedantic -Werror")

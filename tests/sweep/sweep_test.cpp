@@ -6,8 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "floatframe/run/results.hpp"
 #include "floatframe/description/simulation_option.hpp"
+#include "floatframe/run/results.hpp"
 #include "floatframe/sweep/sweep_run.hpp"
 #include "support/error_of.hpp"
 #include "support/temporary_folder.hpp"

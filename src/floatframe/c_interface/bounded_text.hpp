@@ -23,7 +23,8 @@ class BoundedText {
     std::array<char, 1024> whole;
     const auto done =
         fmt::format_to_n(whole.data(), whole.size(), sentence, std::forward<Args>(args)...);
-    set({whole.data(), done.out});
+    const std::string_view text(whole.data(), done.out);
+    copy_text(text, text_.data(), done.size > whole.size() ? text.size() : text_.size());
   }
 
  private:
