@@ -8,7 +8,7 @@
 # nothing of them includes anything but each other, the standard library and Eigen.
 
 # A header may include those before it.
-set(public_headers version errors types body model part simulation history analysis realtime sweep floatframe)
+set(public_headers version errors types body model part simulation history analysis realtime sweep fmu floatframe)
 
 # Of a line `#include "floatframe/..."`: what comes in its place in the header `current`.
 function(expand inner current text_variable system_variable public_variable)

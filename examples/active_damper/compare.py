@@ -5,6 +5,7 @@
     python3 examples/active_damper/compare.py --lockstep           # reproducible, as fast as possible
 """
 import argparse
+import csv
 import pathlib
 import subprocess
 import sys
@@ -15,7 +16,16 @@ import skyhook
 HERE = pathlib.Path(__file__).resolve().parent
 
 
-def ride(arguments, layout, settings, gain):
+def write_table(path, rows):
+    """All outputs at each instant; every number reads back to the same bits."""
+    names = ["time"] + [n for n in rows[0] if n not in ("time", "sequence", "last")]
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file)
+        table.writerow(names)
+        table.writerows([repr(row[n]) for n in names] for row in rows)
+
+
+def ride(arguments, layout, settings, gain, keep=None):
     link = floatframe_link.Link(layout, ("127.0.0.1", 0))
     command = [arguments.program, "realtime", str(HERE / "active_damper.yaml"), *settings,
                "--input", "udp", "--output", "udp", "--send", f"127.0.0.1:{link.address[1]}",
@@ -26,7 +36,7 @@ def ride(arguments, layout, settings, gain):
         command += ["--lockstep", "--no-pace", "--timeout", "30"]
     model = subprocess.Popen(command)
     try:
-        result = skyhook.control(link, gain, arguments.largest_force, arguments.patience)
+        result = skyhook.control(link, gain, arguments.largest_force, arguments.patience, keep)
     finally:
         link.close()
         if model.poll() is None and sys.exc_info()[0] is not None:
@@ -46,13 +56,17 @@ def main():
     parser.add_argument("--largest-force", type=float, default=8000.0, help="[N]")
     parser.add_argument("--lockstep", action="store_true", help="reproducible: the model waits for each answer")
     parser.add_argument("--patience", type=float, default=60.0, help="longest wait for outputs [s]")
+    parser.add_argument("--table", metavar="CSV", help="all outputs of the ride with the controller")
     arguments = parser.parse_args()
     settings = [word for setting in arguments.set for word in ("--set", setting)]
     layout = floatframe_link.read_layout(arguments.program, HERE / "active_damper.yaml", *settings)
     skyhook.heading()
     passive = ride(arguments, layout, settings, 0.0)
     skyhook.show("passive", passive)
-    active = ride(arguments, layout, settings, arguments.gain)
+    rows = []
+    active = ride(arguments, layout, settings, arguments.gain, rows.append)
+    if arguments.table:
+        write_table(arguments.table, rows)
     skyhook.show("skyhook", active)
     change = active["acceleration_rms"] / passive["acceleration_rms"] - 1.0
     print(f"the rms acceleration of the chassis changes by {100 * change:+.1f} %")

@@ -15,13 +15,15 @@ import floatframe_link
 CORNERS = ("front_left", "front_right", "rear_left", "rear_right")
 
 
-def control(link, gain, largest_force, patience):
-    """Answers outputs until the last packet; returns the judgement of the ride."""
+def control(link, gain, largest_force, patience, keep=None):
+    """Answers outputs until the last packet; returns the judgement of the ride. `keep` is called with all outputs."""
     count, az2, pitch2, tyre, force2 = 0, 0.0, 0.0, math.inf, 0.0
     while True:
         outputs = link.receive(patience)
         if outputs is None:
             raise TimeoutError(f"no outputs came for {patience:g} s")
+        if keep:
+            keep(outputs)
         if outputs["last"]:
             break
         forces = {}

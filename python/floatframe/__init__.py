@@ -27,6 +27,7 @@ from .analyses import (
 from .bodies import Body, Invariants, Node, Projection
 from .build import build_info, example, program
 from .errors import Error, ErrorEntry, InputError, OutputError, RunError, StepError, UnknownNameError
+from .fmu import FmuReport, export_fmu
 from .health import Report
 from .meshes import BeamSection, Material, Mesh
 from .model import Model
@@ -48,6 +49,7 @@ __all__ = [
     "Error",
     "ErrorEntry",
     "FileInfo",
+    "FmuReport",
     "InputError",
     "Invariants",
     "Material",
@@ -77,6 +79,7 @@ __all__ = [
     "convert",
     "cylinder",
     "example",
+    "export_fmu",
     "frequency_response",
     "info",
     "linear_inputs",

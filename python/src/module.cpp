@@ -18,5 +18,6 @@ NB_MODULE(_core, m) {
   bind_mesh(m);
   bind_part(m);
   bind_road(m);
+  bind_fmu(m);
   bind_threads();
 }

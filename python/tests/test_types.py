@@ -20,6 +20,8 @@ filled = ff.Model("pendulum", folder=".")
 filled.points.add("hinge", [0, 0, 0])
 filled.simulation.update(step=1e-3)
 text: str = filled.to_yaml()
+exported: ff.FmuReport = ff.export_fmu(model, "vehicle.fmu", fmi=3, outputs=["chassis"])
+platforms: tuple[str, ...] = exported.platforms
 copies = ff.Model.from_yaml(text), ff.Model.from_dict({"bodies": {}})
 
 result: ff.Result = ff.run(model, step=0.01, duration=1.0, progress=print, start="equilibrium", locate_edges=True)

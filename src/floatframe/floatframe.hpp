@@ -10,6 +10,7 @@
 #include "floatframe/analysis.hpp"
 #include "floatframe/body.hpp"
 #include "floatframe/errors.hpp"
+#include "floatframe/fmu.hpp"
 #include "floatframe/history.hpp"
 #include "floatframe/model.hpp"
 #include "floatframe/part.hpp"

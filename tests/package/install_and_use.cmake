@@ -16,7 +16,7 @@ run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
 # Nothing but the public headers is installed, and they include nothing but each other, Eigen and the standard library.
 file(GLOB_RECURSE headers RELATIVE ${WORK}/prefix/include/floatframe ${WORK}/prefix/include/floatframe/*)
 list(SORT headers)
-set(public analysis body errors floatframe history model part realtime simulation sweep types version)
+set(public analysis body errors floatframe fmu history model part realtime simulation sweep types version)
 list(TRANSFORM public APPEND .hpp)
 if(NOT headers STREQUAL public)
   message(FATAL_ERROR "found the headers ${headers}, expected ${public}")

@@ -28,10 +28,10 @@ Command fmu_command();
 inline std::vector<Command> all_commands() {
   std::vector<Command> commands{run_command()};
   for (Command& analysis : analysis_commands()) commands.push_back(std::move(analysis));
-  for (const auto make : {realtime_command, sweep_command, reduce_command, info_command,
-                          convert_command, compare_command, validate_command, outputs_command,
-                          export_command, stress_command, rainflow_command, vehicle_command,
-                          pack_command, fmu_command})
+  for (const auto make :
+       {realtime_command, sweep_command, reduce_command, info_command, convert_command,
+        compare_command, validate_command, outputs_command, export_command, stress_command,
+        rainflow_command, vehicle_command, pack_command, fmu_command})
     commands.push_back(make());
   return commands;
 }

@@ -1,8 +1,11 @@
 // floatframe fmu: a model as an FMU, which other programs step.
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "floatframe/apps/commands.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/text_pieces.hpp"
 #include "floatframe/fmu/fmu_file.hpp"
 #include "floatframe/model_file/keep_outputs.hpp"
 #include "floatframe/model_file/pack_model.hpp"
@@ -15,18 +18,6 @@ struct FmuArguments {
   std::string out, kind = "cs", version = "2", outputs;
   bool overwrite = false, quiet = false;
 };
-
-std::vector<std::string> names_between_commas(const std::string& list) {
-  std::vector<std::string> out;
-  for (std::size_t at = 0; at <= list.size();) {
-    const std::size_t end = std::min(list.find(',', at), list.size());
-    const std::size_t first = list.find_first_not_of(' ', at);
-    if (first < end)
-      out.push_back(list.substr(first, list.find_last_not_of(' ', end - 1) + 1 - first));
-    at = end + 1;
-  }
-  return out;
-}
 
 /// `fixed`: a sentence about each parameter that cannot change.
 PackedModel packed_of(const FmuArguments& a, std::vector<std::string>& fixed) {
@@ -41,7 +32,8 @@ PackedModel packed_of(const FmuArguments& a, std::vector<std::string>& fixed) {
   const ModelSettings settings = settings_of(a.model);
   ModelPacking packing;
   packing.contents.contents = PackOptions::Contents::steps;
-  const std::vector<std::string> names = names_between_commas(a.outputs);
+  std::vector<std::string> names;
+  if (!a.outputs.empty()) names = pieces_of(a.outputs, ',');
   packing.change = [&](ModelDescription& description) {
     set_options(settings.options, description.simulation);
     if (!names.empty()) keep_outputs(description, names);

@@ -77,6 +77,15 @@ std::string fmu_archive(const PackedModel& packed, const std::vector<FmuBinary>&
                      fmt::format("version of FMI: found {}, expected 2 or 3", options.version));
   const bool third = options.version == 3;
   const FmuContent content = fmu_content(packed.build(), packed.parameters(), packed.fingerprint());
+  // The runtime finds a variable by the lower half of its reference.
+  constexpr std::size_t most = 0x10000;
+  for (const std::vector<FmuVariable>* list :
+       {&content.inputs, &content.outputs, &content.parameters})
+    if (list->size() > most)
+      throw InputError(ErrorCode::too_large,
+                       fmt::format("found {} inputs, outputs or parameters, expected at most {} of "
+                                   "a kind in an FMU: --outputs chooses some",
+                                   list->size(), most));
   std::string model = text_of(packed.to_bytes());
   report = {.model_bytes = model.size(),
             .inputs = content.inputs.size(),

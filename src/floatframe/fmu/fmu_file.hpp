@@ -1,5 +1,5 @@
 #pragma once
-// An FMU for co-simulation (FMI 2.0 or 3.0) of a packed model: a zip archive of modelDescription.xml,
+// An FMU for co-simulation (FMI 2.0 or 3.0) of a packed model: a zip archive of its description,
 // documentation, a picture, the packed model and a runtime for each platform that steps it. The
 // runtimes were built with the library and lie beside it, so that no compiler is needed. Equal
 // models give equal files.

@@ -85,6 +85,7 @@ class UnitParser {
  public:
   explicit UnitParser(std::string_view text) : text_(text) {}
   std::optional<FmuUnit> parse() {
+    skip_spaces();
     std::optional<FmuUnit> unit = product(0);
     return at_ == text_.size() ? unit : std::nullopt;
   }

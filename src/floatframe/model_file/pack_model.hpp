@@ -1,5 +1,5 @@
 #pragma once
-// From a model file to a packed model (packed/packed_model.hpp), with the parameters that take new
+// From a model file to a packed model, with the parameters that take new
 // values without a build.
 #include <functional>
 #include <string>

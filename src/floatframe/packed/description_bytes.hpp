@@ -1,5 +1,5 @@
 #pragma once
-// A description as bytes, for packed models (packed_model.hpp): every number bit by bit, every
+// A description as bytes, for packed models: every number bit by bit, every
 // text, also where the user wrote it (Origin). Little-endian, without gaps. What comes first are
 // the numbers of a model file; reduced flexible bodies stand last, equal ones once.
 #include <cstddef>

@@ -1,0 +1,46 @@
+"""Models as FMUs, for co-simulation in other programs (docs/fmu.md)."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from . import _core
+from .arrays import path as path_of
+from .errors import InputError
+from .model import Model
+
+
+@dataclass(frozen=True)
+class FmuReport:
+    """What was written by `export_fmu`."""
+
+    file: str
+    bytes: int
+    """Size of the file."""
+    inputs: int
+    outputs: int
+    parameters: int
+    """Numbers of variables; parameters are those that take a new value without a build of the model."""
+    platforms: tuple[str, ...]
+    """"linux64", "win64"."""
+    notes: tuple[str, ...]
+    """Names that had to change, platforms that are missing, parameters that cannot change and why."""
+
+
+def export_fmu(model: Model, file: str | os.PathLike[str], *, fmi: Literal[2, 3] = 2, outputs: Sequence[str] = ()) -> FmuReport:
+    """Writes a model of a file, with the parameter values it was loaded with, as an FMU for co-simulation of FMI 2.0 or 3.0.
+    outputs: names of those to show, "chassis" for all of "chassis.x", ...; none: all. Raises InputError, OutputError.
+
+    >>> ff.export_fmu(ff.Model.load("vehicle.yaml", speed=20), "vehicle.fmu", fmi=3)
+    """
+    if model.file.endswith("<model>"):
+        raise InputError("found a model without a file, expected one of Model.load: write its to_yaml() to a file first")
+    if isinstance(outputs, str):
+        raise InputError(f"outputs: found the text {outputs!r}, expected a list of names")
+    where = path_of("file", file)
+    found = _core.write_fmu(model.file, list(model.parameters.items()), list(outputs), fmi, where)
+    size, count_in, count_out, parameters, platforms, notes = found
+    return FmuReport(where, size, count_in, count_out, parameters, tuple(platforms), tuple(notes))
