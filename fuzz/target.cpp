@@ -1,4 +1,5 @@
-// One libFuzzer program per reader; FUZZ_READER is its name, or FUZZ_MODELS is defined.
+// One libFuzzer program per reader; FUZZ_READER is its name. With FUZZ_MODELS it is one of those
+// that need what a model is made of.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -6,7 +7,7 @@
 
 #include "judge.hpp"
 #ifdef FUZZ_MODELS
-#include "models.hpp"
+#include "packed.hpp"
 #else
 #include "readers.hpp"
 #endif
@@ -14,15 +15,16 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace floatframe::fuzz;
 #ifdef FUZZ_MODELS
-  const Reader* const reader = &model_reader;
+  constexpr auto& list = model_readers;
 #else
+  constexpr auto& list = readers;
+#endif
   static const Reader* const reader = [] {
-    for (const Reader& r : readers) {
+    for (const Reader& r : list) {
       if (std::string_view(r.name) == FUZZ_READER) return &r;
     }
     std::abort();
   }();
-#endif
   const Judge judge;
   run(*reader, std::string_view(reinterpret_cast<const char*>(data), size));
   Allowance allowance;

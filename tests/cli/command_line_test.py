@@ -143,8 +143,8 @@ class Help(CommandLine):
 class Misuse(CommandLine):
     def test_bad_options_exit_2_with_one_line(self):
         for arguments, message in (
-                ((), "a command is required: run, check, statics, advise, mass, modes, linearize, campbell, response, realtime, sweep, reduce, info, convert, compare, validate, outputs, export, stress, rainflow, vehicle or bench"),
-                (("fly",), "found the command 'fly', expected run, check, statics, advise, mass, modes, linearize, campbell, response, realtime, sweep, reduce, info, convert, compare, validate, outputs, export, stress, rainflow, vehicle or bench"),
+                ((), "a command is required: run, check, statics, advise, mass, modes, linearize, campbell, response, realtime, sweep, reduce, info, convert, compare, validate, outputs, export, stress, rainflow, vehicle, pack, fmu or bench"),
+                (("fly",), "found the command 'fly', expected run, check, statics, advise, mass, modes, linearize, campbell, response, realtime, sweep, reduce, info, convert, compare, validate, outputs, export, stress, rainflow, vehicle, pack, fmu or bench"),
                 (("run",), "MODEL is required"),
                 (("run", ""), "MODEL: found an empty name, expected a file"),
                 (("sweep", "", "--vary", "a=1,2"), "MODEL: found an empty name, expected a file"),

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "../../fuzz/models.hpp"
+#include "../../fuzz/packed.hpp"
 
 namespace floatframe {
 namespace {
@@ -18,7 +18,7 @@ const std::filesystem::path corpus = FLOATFRAME_TEST_DATA "/../../fuzz/corpus";
 
 std::vector<fuzz::Reader> all_readers() {
   std::vector<fuzz::Reader> all(std::begin(fuzz::readers), std::end(fuzz::readers));
-  all.push_back(fuzz::model_reader);
+  all.insert(all.end(), std::begin(fuzz::model_readers), std::end(fuzz::model_readers));
   return all;
 }
 

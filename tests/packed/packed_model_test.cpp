@@ -109,13 +109,11 @@ TEST(PackedModel, ParametersPatchNumbers) {
 parameters: {load: 2.0}
 bodies:
   block: {rigid: {mass: '${1 + load}', inertia: [1, 1, 1]}}
-joints:
-  - {name: slide, type: prismatic, parent: ground, child: block, at: [0, 0, 0], axis: [0, 0, 1]}
+joints: {slide: {type: prismatic, child: block, at: [0, 0, 0], axis: z}}
 forces:
-  spring: {type: spring_damper, a: {body: ground, at: [0, 0, 2]}, b: {body: block, at: [0, 0, 0]},
-           spring: {stiffness: 100, free_length: 2}}
-outputs:
-  z: {position: {body: block}, component: z}
+  spring: {type: spring_damper, from: {body: ground, at: [0, 0, 2]},
+           to: {body: block, at: [0, 0, 0]}, spring: 100}
+outputs: {z: {position: {body: block}, axis: z}}
 )";
   const auto description = [&](const char* load) {
     return test::description_of(text, {{"load", load}});

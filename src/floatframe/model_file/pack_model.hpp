@@ -1,6 +1,5 @@
 #pragma once
-// From a model file to a packed model, with the parameters that take new
-// values without a build.
+// From a model file to a packed model, with the parameters that take new values without a build.
 #include <functional>
 #include <string>
 #include <vector>
