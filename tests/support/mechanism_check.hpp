@@ -5,6 +5,9 @@
 // (fastest_rate), such that the kinks of functions of time lie between steps where they can
 // (steps_on_kinks); the same rule for all. Difference d(h): the largest over all positions of
 // points, joint coordinates and modal amplitudes at the instants of the first step.
+// An equilibrium may be one of many: a body that hangs on a ball is in balance at each angle about
+// the vertical, and rounding chooses, by up to 1e-6 after a long search. What two inertia methods
+// find apart is judged with one, that of relative coordinates: then both begin at the same place.
 //   equal          d < 1e-8 at some step
 //   second_order   d(h)/d(h/2) is 3 to 5 at the first step, and d(h/2) below 0.1 m or rad ...
 //   finer          ... or at one of the next two halvings: the first step was not small enough
