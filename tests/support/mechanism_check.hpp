@@ -15,7 +15,9 @@
 //                  lifts off or meets an edge): the error of that one step depends on where in the
 //                  step it lies, so d need only fall, by 2 a halving in the mean, to the last step
 //   refused        both refuse the model, with a sentence; or one, because something moves without
-//                  mass, and the other stops in its first step for the same
+//                  mass, and the other stops in its first step for the same, or moves it almost
+//                  without mass: the spin of a bar bent by 4e-6 m. What the inertia of its
+//                  spin is compared with depends on the coordinates, where rounding is near
 //   stopped        both run and stop before the end at all steps, with a sentence; at all but the
 //                  largest if it says that a singular position is next: large steps may leap it,
 //                  and one may where the other does not, if d < 1e-6 at the steps where both do,
