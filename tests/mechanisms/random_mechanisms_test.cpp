@@ -15,6 +15,7 @@
 
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/run/run.hpp"
+#include "floatframe/start/initial_state.hpp"
 #include "floatframe/stepping/stepping.hpp"
 #include "support/mechanism_check.hpp"
 #include "support/random_count.hpp"
@@ -267,6 +268,38 @@ TEST(RandomMechanisms, RoundingDecidesNothingAboutAMasslessMode) {
   std::printf("[ figure ] seed 181, 967 steps, absolute: largest change of a point [m] %.2g\n",
               largest);
   EXPECT_LT(largest, 1e-7);
+}
+
+// The slider of seed 466 sinks 20 m into a soft stop, a hundred steps of the search. The body that
+// hangs on a ball below is then in balance at each angle about the vertical: rounding, which two
+// inertia methods do differently, chooses it, and nothing else.
+TEST(RandomMechanisms, RoundingChoosesAmongEquilibria) {
+  const auto m = with_joint_element(random_mechanism(466), ElementType::joint_stop, 466);
+  const Judgement judged = judge(*m);
+  EXPECT_STREQ(word(judged.verdict), "second order") << judged.reason;
+  const Model model = build_model(m->description);
+  RelativeFormulation one(model, InertiaMethod::preprocessing),
+      other(model, InertiaMethod::projection);
+  const State s = relative_start(one, Start::equilibrium),
+              z = relative_start(other, Start::equilibrium);
+  EXPECT_NEAR(s.q[0], z.q[0], 1e-11);
+  kinematics_at(one, 0.0, s.q, s.v);
+  kinematics_at(other, 0.0, z.q, z.v);
+  const Mat3 turn =
+      one.motion().bodies[2].R_WB * other.motion().bodies[2].R_WB.transpose() - Mat3::Identity();
+  const Vec3 angle(turn(2, 1), turn(0, 2), turn(1, 0));
+  std::printf("[ figure ] seed 466, turned about the vertical by [rad] %.2g, about others %.2g\n",
+              angle.norm(), angle.cross(model.gravity.normalized()).norm());
+  EXPECT_LT(angle.norm(), 1e-6);
+  EXPECT_LT(angle.cross(model.gravity.normalized()).norm(), 1e-10);
+}
+
+// The loop of seed 263 bends a bar between two balls by 4e-6 m: all that its spin has of inertia.
+// Relative coordinates call that nothing, absolute ones begin.
+TEST(RandomMechanisms, ABarThatIsHardlyBentSpinsWithoutMass) {
+  const Judgement judged = judge(*with_cam(random_mechanism(263), 263));
+  EXPECT_STREQ(word(judged.verdict), "refused") << judged.reason;
+  EXPECT_NE(judged.reason.find("body 'body_2' can move without mass"), std::string::npos);
 }
 
 TEST(RandomMechanisms, TheSameSeedGivesTheSameMechanism) {

@@ -5,6 +5,9 @@
 // (fastest_rate), such that the kinks of functions of time lie between steps where they can
 // (steps_on_kinks); the same rule for all. Difference d(h): the largest over all positions of
 // points, joint coordinates and modal amplitudes at the instants of the first step.
+// An equilibrium may be one of many: a body that hangs on a ball is in balance at each angle about
+// the vertical, and rounding chooses, by up to 1e-6 after a long search. What two inertia methods
+// find apart is judged with one, that of relative coordinates: then both begin at the same place.
 //   equal          d < 1e-8 at some step
 //   second_order   d(h)/d(h/2) is 3 to 5 at the first step, and d(h/2) below 0.1 m or rad ...
 //   finer          ... or at one of the next two halvings: the first step was not small enough
@@ -12,7 +15,9 @@
 //                  lifts off or meets an edge): the error of that one step depends on where in the
 //                  step it lies, so d need only fall, by 2 a halving in the mean, to the last step
 //   refused        both refuse the model, with a sentence; or one, because something moves without
-//                  mass, and the other stops in its first step for the same
+//                  mass, and the other stops in its first step for the same, or moves it almost
+//                  without mass: the spin of a bar bent by 4e-6 m. What the inertia of its
+//                  spin is compared with depends on the coordinates, where rounding is near
 //   stopped        both run and stop before the end at all steps, with a sentence; at all but the
 //                  largest if it says that a singular position is next: large steps may leap it,
 //                  and one may where the other does not, if d < 1e-6 at the steps where both do,
