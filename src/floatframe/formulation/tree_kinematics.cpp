@@ -7,6 +7,7 @@
 #include "floatframe/core/debug_only.hpp"
 #include "floatframe/math/contracts.hpp"
 #include "floatframe/math/small_products.hpp"
+#include "floatframe/model/joint_kind.hpp"
 
 namespace floatframe {
 

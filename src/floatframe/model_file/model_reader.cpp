@@ -124,7 +124,8 @@ ModelDescription packed_description(const std::string& path,
 std::vector<std::string> model_parameters(const std::string& path) {
   if (is_packed_file(path)) {
     std::vector<std::string> packed;
-    for (const PackedParameter& p : read_packed_model(path).parameters()) packed.push_back(p.name);
+    const PackedModel model = read_packed_model(path);
+    for (const PackedParameter& p : model.parameters()) packed.push_back(p.name);
     return packed;
   }
   ReadErrors errors;

@@ -159,7 +159,7 @@ FLOATFRAME_LAW(bushing)
 
 namespace {
 
-constexpr const char* rotation_rates[] = {"rotation_vector", "angular_velocity"};
+constexpr const char* rates_of_rotations[] = {"rotation_vector", "angular_velocity"};
 constexpr KeyKind spring_law = KeyKind::spring, damper_law = KeyKind::damper;
 constexpr ElementAxis about_axis = ElementAxis::about;
 constexpr ElementKey bushing_keys[] = {
@@ -191,7 +191,7 @@ constexpr ElementKey bushing_keys[] = {
      .about = "what `damper_rx`, `damper_ry` and `damper_rz` are laws of: the rates of the "
               "components of the rotation vector, or the components of the angular velocity of "
               "`to` relative to `from`, which may then turn without end",
-     .words = rotation_rates,
+     .words = rates_of_rotations,
      .member = described_by<&Bushing::rotation_rate>}};
 constexpr int first_law = 4;
 
