@@ -14,6 +14,7 @@
 // allocates after construction.
 #include <algorithm>
 #include <cassert>
+#include <cstdint>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -56,7 +57,7 @@ class CornerSteps {
   /// is called at a corner, before accelerations are solved for again; false: the step ends there.
   /// If the step is not accepted, the state is that of the last corner that was passed.
   template <class Smooth, class Behind>
-  StepAttempt step(State& state, double h, long& passed, const Smooth& smooth,
+  StepAttempt step(State& state, double h, std::int64_t& passed, const Smooth& smooth,
                    const Behind& behind) noexcept {
     assert(h > 0.0);
     const double end = state.t + h;

@@ -59,7 +59,7 @@ class EdgeLocator {
 
   /// The beginning of a step, which `step` may make in parts, and its end at this state.
   void begin() noexcept { undivided_ = false; }
-  void end(const State& state, long& passed) noexcept {
+  void end(const State& state, std::int64_t& passed) noexcept {
     if (!undivided_) return;
     hold(state);
     ++passed;
@@ -69,7 +69,7 @@ class EdgeLocator {
   double crowded_at() const noexcept { return crowded_at_; }
 
   /// One step of size h. If it is not accepted, the state is that of the last edge that was passed.
-  StepAttempt step(State& state, double h, long& edges) noexcept {
+  StepAttempt step(State& state, double h, std::int64_t& edges) noexcept {
     if (forces_.empty()) return integrator_.attempt(state, h);
     if (undivided_) f_.hold_force_branches(free_);
     if (undivided_) return integrator_.attempt(state, h);

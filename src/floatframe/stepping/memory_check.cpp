@@ -27,8 +27,8 @@ bool consistent(const StepperMemory& m, double step) {
   const TangentReuse& e = m.tangent_reuse;
   if (!(e.contraction >= 0.0 && e.contraction <= 1.0) || std::isinf(e.valid_at)) return false;
   const StepCounters& c = m.counters;
-  for (const long n : {c.steps, c.substeps, c.iterations, c.factorizations, c.cut_short, c.edges,
-                       c.edges_passed, c.corners})
+  for (const std::int64_t n : {c.steps, c.substeps, c.iterations, c.factorizations, c.cut_short,
+                               c.edges, c.edges_passed, c.corners})
     if (n < 0 || n > most) return false;
   return c.max_position_violation >= 0.0 && c.max_velocity_violation >= 0.0 &&
          c.max_load_contraction >= 0.0;
