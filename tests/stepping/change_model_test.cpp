@@ -33,7 +33,7 @@ simulation: {)" + simulation +
 }
 
 /// The slider crank with a beam: a load on its rod, a spring at the hinge of the beam.
-std::string machine(double load, double spring) {
+std::string changing_machine(double load, double spring) {
   return machine_bodies + machine_joints + R"(forces:
   push: {type: joint_spring, joint: hinge, spring: )" +
          std::to_string(spring) + R"(, damper: 0.2}
@@ -107,10 +107,10 @@ TEST_P(ChangeModel, APreloadActsAsAnInputDoes) {
 }
 
 TEST_P(ChangeModel, NothingThatChangesChangesNoBit) {
-  const Model model = model_of(machine(2.0, 5.0));
+  const Model model = model_of(changing_machine(2.0, 5.0));
   Simulation a(model, options(1e-3)), b(model, options(1e-3));
   for (int k = 0; k < 60; ++k) {
-    if (k % 20 == 10) a.change_model(model_of(machine(2.0, 5.0)));
+    if (k % 20 == 10) a.change_model(model_of(changing_machine(2.0, 5.0)));
     ASSERT_TRUE(a.step());
     ASSERT_TRUE(b.step());
     ASSERT_TRUE(equal_bits(a.outputs(), b.outputs())) << k;
@@ -119,9 +119,9 @@ TEST_P(ChangeModel, NothingThatChangesChangesNoBit) {
 
 // A state file keeps positions and velocities, from which the changed model starts as well.
 TEST_P(ChangeModel, IsARunFromAStateOfTheChangedModel) {
-  Simulation a(model_of(machine(2.0, 5.0)), options(1e-3));
+  Simulation a(model_of(changing_machine(2.0, 5.0)), options(1e-3));
   for (int k = 0; k < 50; ++k) ASSERT_TRUE(a.step());
-  const Model changed = model_of(machine(-7.0, 40.0));
+  const Model changed = model_of(changing_machine(-7.0, 40.0));
   a.change_model(changed);
   SimulationOptions from_state = options(1e-3);
   from_state.state = std::make_shared<const SystemState>(a.state());
@@ -135,7 +135,8 @@ TEST_P(ChangeModel, IsARunFromAStateOfTheChangedModel) {
 }
 
 TEST_P(ChangeModel, SavedStatesBelongToTheChangedModel) {
-  const Model first = model_of(machine(2.0, 5.0)), second = model_of(machine(3.0, 9.0));
+  const Model first = model_of(changing_machine(2.0, 5.0)),
+              second = model_of(changing_machine(3.0, 9.0));
   Simulation a(first, options(1e-3));
   for (int k = 0; k < 20; ++k) ASSERT_TRUE(a.step());
   const SimulationState before = a.save();
@@ -212,7 +213,7 @@ TEST_P(ChangeModel, OtherStructuresAreRefused) {
     EXPECT_TRUE(contains(sentences_of([&] { a.change_model(model); }), part));
     EXPECT_TRUE(equal_bits(a.outputs(), before));
   };
-  refused(model_of(machine(1.0, 1.0)), "'body'");
+  refused(model_of(changing_machine(1.0, 1.0)), "'body'");
   refused(oscillator("100", "", "step: 0.02"), "step");
   refused(oscillator("100", "", "step: 0.01, tolerance: 1e-5"), "tolerance");
   refused(oscillator("100", ", target: {input: F}"), "'s'");

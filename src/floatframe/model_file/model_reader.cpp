@@ -123,10 +123,10 @@ ModelDescription packed_description(const std::string& path,
 
 std::vector<std::string> model_parameters(const std::string& path) {
   if (is_packed_file(path)) {
-    std::vector<std::string> packed;
     const PackedModel model = read_packed_model(path);
-    for (const PackedParameter& p : model.parameters()) packed.push_back(p.name);
-    return packed;
+    std::vector<std::string> known;
+    for (const PackedParameter& p : model.parameters()) known.push_back(p.name);
+    return known;
   }
   ReadErrors errors;
   ModelFiles files(errors);

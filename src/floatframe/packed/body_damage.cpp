@@ -61,7 +61,7 @@ bool fits(const BodyStress& x, Eigen::Index modes, std::size_t nodes, std::size_
            (p.point < 0 || points == 0 || is_index(p.point, points)) &&
            (p.point >= 0 || is_index(p.node, nodes));
   for (const BeamSectionPlace& p : x.sections) good = good && (p.end == 0 || p.end == 1);
-  good = good && (x.first_place.empty() || x.first_place.size() == x.sections.size());
+  good = good && (x.first_place.empty() || x.first_place.size() == x.sections.size() + 1);
   for (const int k : x.first_place) good = good && k >= 0 && std::size_t(k) <= x.places.size();
   return good && std::ranges::is_sorted(x.first_place);
 }
