@@ -168,7 +168,7 @@ void pass(S& s, JointDescription& j) {
   auto& [name, type, parent, child, axis, axis_2, position, velocity, keep, motion, motions, cut,
          origin] = j;
   pass(s, name);
-  pass_word(s, type, JointType::free);
+  pass_word(s, type, *std::rbegin(joint_types));
   all(s, parent, child, axis, axis_2, position, velocity, keep, motion, motions, cut, origin);
 }
 template <class S>
@@ -222,7 +222,7 @@ template <class S>
 void pass(S& s, SystemState::Joint& j) {
   auto& [name, type, position, velocity] = j;
   pass(s, name);
-  pass_word(s, type, JointType::free);
+  pass_word(s, type, *std::rbegin(joint_types));
   all(s, position, velocity);
 }
 template <class S>
