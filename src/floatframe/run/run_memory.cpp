@@ -20,9 +20,10 @@ RunIdentity run_identity(const Model& model, const SimulationDescription& o,
                          const RunKeeps& keeps) {
   const auto number = [](double x) { return fmt::format("{}", x); };
   const auto yes = [](bool x) { return std::string(x ? "yes" : "no"); };
-  return {{"model", model_hash(model)},
+  // The method of inertia before the model, whose data are those of the method.
+  return {{"inertia", rules::inertia_methods[index_of(o.inertia)]},
+          {"model", model_hash(model)},
           {"coordinates", rules::coordinates[index_of(o.coordinates)]},
-          {"inertia", rules::inertia_methods[index_of(o.inertia)]},
           {"step", number(o.step)},
           {"duration", number(o.duration)},
           {"output_interval", number(o.output_interval)},
