@@ -13,7 +13,7 @@ LIB = pathlib.Path(os.environ["FLOATFRAME_BINARY"]).parent / "lib"
 HEADER = ROOT / "src" / "floatframe" / "c_interface"
 MODEL = ROOT / "examples" / "active_damper" / "active_damper.yaml"
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```", re.MULTILINE | re.DOTALL)
-EXPECTED = re.compile(r"t = 0?\.100 s, vz = +(-?[\d.E+-]+) m/s")
+EXPECTED = re.compile(r"t = 0?\.500 s, vz = +(-?[\d.eE+-]+) m/s")
 
 
 def program(language):

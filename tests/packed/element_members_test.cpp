@@ -37,6 +37,7 @@ std::vector<std::pair<std::size_t, std::size_t>> uncovered(const ElementDescript
 
 TEST(PackedElements, EveryMemberHasAKey) {
   for (const ElementType type : element_types) {
+    if (element_kind(type).list == ElementList::motions) continue;  // described with their joints
     const ElementDescription blank{"x", element_kind(type).blank(), {}};
     for (const auto& [at, size] : uncovered(blank))
       ADD_FAILURE() << element_type_name(type) << ": " << size << " bytes from " << at

@@ -115,7 +115,7 @@ TEST(PackedModel, ParametersPatchNumbers) {
   const std::string text = R"(
 parameters: {load: 2.0}
 bodies:
-  block: {rigid: {mass: '${1 + load}', inertia: [1, 1, 1]}}
+  block: {position: [0, 0, 0], rigid: {mass: '${1 + load}', inertia: [1, 1, 1]}}
 joints: {slide: {type: prismatic, child: block, at: [0, 0, 0], axis: z}}
 forces:
   spring: {type: spring_damper, from: {body: ground, at: [0, 0, 2]},

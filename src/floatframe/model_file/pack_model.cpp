@@ -1,7 +1,9 @@
 #include "floatframe/model_file/pack_model.hpp"
 
 #include <array>
+#include <filesystem>
 #include <fstream>
+#include <system_error>
 
 #include "floatframe/core/number_rule.hpp"
 #include "floatframe/formulas/syntax_tree.hpp"
@@ -84,6 +86,8 @@ std::vector<double> packed_values(const PackedModel& model,
 }
 
 bool is_packed_file(const std::string& path) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none)) return false;  // a pipe would be waited for
   std::ifstream file(path, std::ios::binary);
   std::array<char, 64> first{};
   file.read(first.data(), first.size());
