@@ -22,6 +22,7 @@ struct RoadSpectrum {
   double roughness = road_classes::roughness(2);  ///< G0 [m3]
   double start = 0.0, length = 100.0;             ///< [m]
   std::int64_t seed = 1;                          ///< each value gives a different road
+  bool operator==(const RoadSpectrum&) const = default;
 };
 
 /// int G dn between two wave numbers [m2]; G is 0 outside the range.

@@ -13,4 +13,18 @@ std::shared_ptr<const YamlDocument> ParsedFiles::get(const std::string& file,
   return document;
 }
 
+PiecewisePolynomial ParsedFiles::road(const RoadSpectrum& spectrum) {
+  constexpr std::size_t kept = 8;
+  {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [of, road] : roads_)
+      if (of == spectrum) return road;
+  }
+  PiecewisePolynomial made = random_road(spectrum);
+  const std::lock_guard lock(mutex_);
+  roads_.emplace_back(spectrum, made);
+  if (roads_.size() > kept) roads_.pop_front();
+  return made;
+}
+
 }  // namespace floatframe

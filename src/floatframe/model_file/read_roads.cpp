@@ -3,6 +3,7 @@
 
 #include "floatframe/description/road_spectrum.hpp"
 #include "floatframe/description/rules.hpp"
+#include "floatframe/model_file/parsed_files.hpp"
 #include "floatframe/model_file/read_parts.hpp"
 #include "floatframe/yaml/read_table.hpp"
 
@@ -72,7 +73,9 @@ void read_roads(const ModelInstance& self, ReadModel& model) {
     r.origin = s.origin();
     if (const auto v = s.get("profile")) r.pieces = read_profile(*v);
     if (const auto v = s.get("spectrum"))
-      if (const auto spectrum = read_spectrum(*v)) r.pieces = r.pieces + random_road(*spectrum);
+      if (const auto spectrum = read_spectrum(*v))
+        r.pieces = r.pieces + (model.options.parsed ? model.options.parsed->road(*spectrum)
+                                                    : random_road(*spectrum));
     if (const auto v = s.get("bumps"))
       for (const YamlValue& item : v->list("a list of bumps {start, length, height}")) {
         auto b = item.section("a bump {start, length, height}");
