@@ -102,7 +102,7 @@ floatframe_status set_fake_input(Fake* s, std::int32_t k, double value) noexcept
 
 floatframe_status set_fake_parameter(Fake* s, std::int32_t k, double value) noexcept {
   if (k < 0 || k > 2 || !(value > 0.0))
-    return s->say(FLOATFRAME_INVALID, "expected a positive number");
+    return s->say(FLOATFRAME_INVALID, "a parameter of the double is above 0");
   s->state.parameters[unsigned(k)] = value;
   return FLOATFRAME_OK;
 }
