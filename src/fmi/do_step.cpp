@@ -4,7 +4,10 @@
 // differ from T by what rounding has summed up. With the inner step h:
 //   - H = n h within 1e-9 h, and t = T within 1e-3 h: n inner steps, whatever the sums of the
 //     importer are, so that the times stay those of the model;
-//   - else: whole inner steps up to T + H, and a last one shortened to what is left.
+//   - else: whole inner steps up to T + H, and a last one shortened to what is left. If that is
+//     less than h/2, it and the one before are equal: a step that is much shorter than its
+//     neighbours disturbs the accelerations of generalised-alpha by the square of their ratio, and
+//     a master repeats it with each step.
 #include <chrono>
 #include <cmath>
 
@@ -55,12 +58,14 @@ Instance::Plan Instance::plan(double offset, double size) const noexcept {
   const double whole = std::round(size / h);
   if (whole > 0.0 && std::fabs(whole * h - size) <= tolerance &&
       std::fabs(offset) <= clock_tolerance * h)
-    return {std::int64_t(whole), 0.0};
+    return {std::int64_t(whole), 0, 0.0};
   const double gap = offset + size;
   if (!(gap > tolerance)) return {};
   const double count = std::floor((gap + tolerance) / h);
   const double rest = gap - count * h;
-  return {std::int64_t(count), rest > tolerance ? rest : 0.0};
+  if (!(rest > tolerance)) return {std::int64_t(count), 0, 0.0};
+  if (count > 0.0 && rest < 0.5 * h) return {std::int64_t(count) - 1, 2, 0.5 * (h + rest)};
+  return {std::int64_t(count), 1, rest};
 }
 
 Status Instance::advance(Plan plan, double target, StepReport& report) noexcept {
@@ -68,17 +73,14 @@ Status Instance::advance(Plan plan, double target, StepReport& report) noexcept 
   while (!plan.is_over()) {
     const bool is_whole = plan.whole > 0;
     const floatframe_status found =
-        is_whole ? f_.step(simulation_) : f_.step_by(simulation_, plan.rest);
+        is_whole ? f_.step(simulation_) : f_.step_by(simulation_, plan.size);
     if (found != FLOATFRAME_OK && found != FLOATFRAME_WARNING)
       return fail("%s", f_.message(simulation_));
     if (found == FLOATFRAME_WARNING) {
       status = Status::warning;
       log_.write(status, Category::warning, "%s: %s", function_, f_.message(simulation_));
     }
-    if (is_whole)
-      --plan.whole;
-    else
-      plan.rest = 0.0;
+    --(is_whole ? plan.whole : plan.shorter);
     if (update_ != nullptr && update(plan, target, report) == Status::error) return Status::error;
   }
   return status;

@@ -7,8 +7,8 @@
 // 0x30000 + i parameter i, 0x40000 + k figure k of the run.
 //
 // A step of the importer (`do_step`) is made of inner steps of the model's own size h, as many as
-// fit, and a shortened last one if something is left. A whole number of inner steps gives the bits
-// of `floatframe run`. After initialisation neither steps nor values allocate.
+// fit, and one or two shortened ones if something is left. A whole number of inner steps gives the
+// bits of `floatframe run`. After initialisation neither steps nor values allocate.
 #include <array>
 #include <cstdarg>
 #include <cstdint>
@@ -90,11 +90,11 @@ class Instance {
     Kind kind = Kind::none;
     std::int32_t index = 0;
   };
-  /// Inner steps that are left, and a shorter one after them.
+  /// Inner steps that are left, and shorter ones after them.
   struct Plan {
-    std::int64_t whole = 0;
-    double rest = 0.0;
-    bool is_over() const { return whole == 0 && !(rest > 0.0); }
+    std::int64_t whole = 0, shorter = 0;
+    double size = 0.0;  ///< of each of those that are shorter [s]
+    bool is_over() const { return whole == 0 && shorter == 0; }
   };
 
   Instance(const InstanceOptions& options, floatframe_simulation* simulation);

@@ -60,6 +60,19 @@ TYPED_TEST(FmiStep, AnyOtherStepIsReachedByAShorterLastOne) {
   EXPECT_NEAR(any.get(0), 0.045, 1e-15);
 }
 
+TYPED_TEST(FmiStep, NoInnerStepIsMuchShorterThanTheOneBefore) {
+  Ready<TypeParam> any, divided;
+  ASSERT_EQ(TypeParam::step(any.c, 0.0, 0.0201), ok);  // one, and two of 0.00505
+  ASSERT_EQ(TypeParam::step(divided.c, 0.0, 0.01), ok);
+  ASSERT_EQ(TypeParam::step(divided.c, 0.01, 0.00505), ok);
+  ASSERT_EQ(TypeParam::step(divided.c, 0.01505, 0.00505), ok);
+  EXPECT_EQ(any.get(figure0), 3.0);
+  EXPECT_NEAR(any.get(0), 0.0201, 1e-15);
+  EXPECT_NEAR(any.get(output0), divided.get(output0), 1e-12 * std::fabs(any.get(output0)));
+  ASSERT_EQ(TypeParam::step(any.c, 0.0201, 0.0001), ok);  // there is none before
+  EXPECT_EQ(any.get(figure0), 4.0);
+}
+
 TYPED_TEST(FmiStep, TheImportersClockIsFollowedOrRefused) {
   Ready<TypeParam> late;
   ASSERT_EQ(TypeParam::step(late.c, 0.003, 0.01), ok);  // less than half an inner step away
