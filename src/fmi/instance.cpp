@@ -170,6 +170,11 @@ Status Instance::ensure_start() noexcept {
   return worse(Status::ok, found);
 }
 
+void Instance::unstart() noexcept {
+  f_.reset(simulation_);
+  run_.needs_start = true;
+}
+
 Status Instance::terminate() noexcept {
   state_ = State::terminated;
   return Status::ok;

@@ -105,6 +105,7 @@ class Instance {
   Status worse(Status status, floatframe_status found) noexcept;
   /// The start with the present inputs and parameters, if these have changed since the last one.
   Status ensure_start() noexcept;
+  void unstart() noexcept;
   void count_step(double seconds, double size) noexcept;
   Status check_step(double at, double size) noexcept;
   Plan plan(double offset, double size) const noexcept;

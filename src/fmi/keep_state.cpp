@@ -44,6 +44,7 @@ Status Instance::set_state(void* state) {
 
 Status Instance::apply(const SavedState& state) {
   if (state.run.needs_start) {
+    unstart();
     for (std::size_t k = 0; k < state.inputs.size(); ++k)
       if (f_.set_input(simulation_, std::int32_t(k), state.inputs[k]) > FLOATFRAME_WARNING)
         return fail("%s", f_.message(simulation_));

@@ -113,9 +113,12 @@ Status Instance::set(const std::uint32_t* references, std::size_t count, const d
     status = worse(status, f_.set_input(simulation_, found.index, values[k]));
     if (status == Status::error) return status;
   }
-  if (!indices_.empty())
+  if (!indices_.empty()) {
+    // Before the first step they are part of a start, not a change of the model that moves.
+    if (state_ != State::stepping) unstart();
     status = worse(
         status, f_.set_parameters(simulation_, indices_.data(), numbers_.data(), indices_.size()));
+  }
   if (status != Status::error && state_ != State::stepping) run_.needs_start = true;
   return status;
 }

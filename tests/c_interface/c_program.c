@@ -27,6 +27,7 @@ static void without_a_handle(void) {
   EXPECT(strcmp(floatframe_fingerprint(NULL), "") == 0);
   EXPECT(floatframe_set_option(NULL, "step", "1") == FLOATFRAME_INVALID);
   EXPECT(floatframe_start(NULL) == FLOATFRAME_INVALID);
+  EXPECT(floatframe_reset(NULL) == FLOATFRAME_INVALID);
   EXPECT(floatframe_note_count(NULL) == 0);
   EXPECT(floatframe_note(NULL, 0) == NULL);
   EXPECT(isnan(floatframe_time(NULL)));

@@ -77,6 +77,33 @@ TEST_F(HandleParameters, ThatGiveNoModel) {
   EXPECT_EQ(saved(s.get()), before);
 }
 
+TEST_F(HandleParameters, ThatHoldForAWholeRun) {
+  std::string text = tunable_machine();
+  const std::string old = "step: 2.0e-3";
+  ASSERT_NE(text.find(old), std::string::npos);
+  text.replace(text.find(old), old.size(), "step: \"${0.001 * load}\"");
+  const std::string path = folder_.write("paced.yaml", text);
+  Simulation expected(load_model(path, {{"load", "1"}}));
+  const std::vector<std::byte> bytes = pack_model(path).to_bytes();
+  char message[1000];
+  const Handle s(floatframe_open_memory(bytes.data(), bytes.size(), message, sizeof message));
+  ASSERT_TRUE(s != nullptr) << message;
+  ASSERT_EQ(floatframe_start(s.get()), FLOATFRAME_OK);
+  steps(s.get(), 0, 3);
+  const int load = floatframe_find_parameter(s.get(), "load");
+  EXPECT_EQ(floatframe_set_parameter(s.get(), load, 1.0), FLOATFRAME_INVALID);
+  expect_in(floatframe_message(s.get()), "holds for a whole run");
+  EXPECT_EQ(floatframe_reset(s.get()), FLOATFRAME_OK);
+  EXPECT_TRUE(std::isnan(floatframe_time(s.get())) && std::isnan(floatframe_output(s.get(), 0)));
+  EXPECT_EQ(floatframe_step(s.get()), FLOATFRAME_WRONG_ORDER);
+  for (int k = 0; k < floatframe_input_count(s.get()); ++k)
+    floatframe_set_input(s.get(), k, floatframe_input_initial(s.get(), k));
+  EXPECT_EQ(floatframe_set_parameter(s.get(), load, 1.0), FLOATFRAME_OK);
+  EXPECT_EQ(floatframe_start(s.get()), FLOATFRAME_OK) << floatframe_message(s.get());
+  EXPECT_EQ(floatframe_step_size(s.get()), 0.001);
+  EXPECT_TRUE(equal_bits(steps(s.get(), 0, 20), steps(expected, 0, 20)));
+}
+
 TEST_F(HandleParameters, AreInSavedStates) {
   const Handle s = packed();
   const int stiff = floatframe_find_parameter(s.get(), "stiff");

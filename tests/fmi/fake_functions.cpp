@@ -110,6 +110,9 @@ floatframe_status set_fake_parameter(Fake* s, std::int32_t k, double value) noex
 floatframe_status set_fake_parameters(Fake* s, const std::int32_t* k, const double* values,
                                       std::size_t count) noexcept {
   for (std::size_t i = 0; i < count; ++i)
+    if (s->started && k[i] == 1 && values[i] == 7.0)
+      return s->say(FLOATFRAME_INVALID, "this mass holds for a whole run");
+  for (std::size_t i = 0; i < count; ++i)
     if (const auto status = set_fake_parameter(s, k[i], values[i])) return status;
   return FLOATFRAME_OK;
 }
@@ -137,6 +140,10 @@ floatframe_functions fake_table() {
   f.message = [](const Fake* s) noexcept { return s->message.c_str(); };
   f.fingerprint = [](const Fake* s) noexcept { return s->fingerprint.c_str(); };
   f.start = &start_fake;
+  f.reset = [](Fake* s) noexcept {
+    s->started = false;
+    return FLOATFRAME_OK;
+  };
   f.note_count = [](const Fake* s) noexcept { return s->started ? 1 : 0; };
   f.note = [](const Fake*, std::int32_t) noexcept { return "the mass is at rest"; };
   f.time = [](const Fake* s) noexcept { return s->state.time; };

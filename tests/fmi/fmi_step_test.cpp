@@ -146,6 +146,24 @@ TYPED_TEST(FmiStep, TheEquilibriumFollowsWhatIsSetInInitialization) {
   TypeParam::free(c);
 }
 
+TYPED_TEST(FmiStep, WhatHoldsForAWholeRunIsSetInInitialization) {
+  Heard heard;
+  void* const c = TypeParam::make(heard);
+  const std::uint32_t mass = parameter0 + 1, output = output0;
+  const double heavy = 7.0;
+  double x = 0.0;
+  EXPECT_EQ(TypeParam::enter(c), ok);
+  EXPECT_EQ(TypeParam::get(c, &output, 1, &x), ok);  // the start is found
+  EXPECT_EQ(TypeParam::set(c, &mass, 1, &heavy), ok) << "and found again";
+  EXPECT_EQ(TypeParam::exit(c), ok);
+  EXPECT_EQ(TypeParam::step(c, 0.0, 0.1), ok);
+  EXPECT_EQ(TypeParam::set(c, &mass, 1, &heavy), error);
+  EXPECT_TRUE(heard.has("holds for a whole run"));
+  EXPECT_EQ(TypeParam::reset(c), ok);
+  EXPECT_EQ(TypeParam::set(c, &mass, 1, &heavy), ok);
+  TypeParam::free(c);
+}
+
 TYPED_TEST(FmiStep, OverrunsAreCountedAndSaid) {
   Ready<TypeParam> slow;
   slow_down_fakes(0.012);

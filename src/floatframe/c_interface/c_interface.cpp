@@ -60,6 +60,9 @@ floatframe_status floatframe_set_option(floatframe_simulation* s, const char* ke
 floatframe_status floatframe_start(floatframe_simulation* s) noexcept {
   return floatframe::guarded(s, [](auto& handle) { return handle.start(); });
 }
+floatframe_status floatframe_reset(floatframe_simulation* s) noexcept {
+  return floatframe::guarded(s, [](auto& handle) { return handle.reset(); });
+}
 int32_t floatframe_note_count(const floatframe_simulation* s) noexcept {
   return s == nullptr ? 0 : std::int32_t(s->notes().size());
 }

@@ -18,8 +18,8 @@
  * Each function that takes a handle accepts NULL and then does nothing: a status is
  * FLOATFRAME_INVALID, a number NaN, a count 0, a search -1, a name or an array NULL, any other text
  * empty. Texts are UTF-8 and belong to the handle, until it is closed; a message is valid until the
- * next call, notes until the next start or restore. Indices count from 0. Units are those of the
- * model. */
+ * next call, notes until the next start, reset or restore. Indices count from 0. Units are those of
+ * the model. */
 #ifndef FLOATFRAME_H
 #define FLOATFRAME_H
 
@@ -110,6 +110,9 @@ FLOATFRAME_API floatframe_status floatframe_set_option(floatframe_simulation*, c
 /** Finds the start with the present options, parameters and inputs: loops closed, or the
  * equilibrium. Again: returns to the start; inputs and parameters keep their values. */
 FLOATFRAME_API floatframe_status floatframe_start(floatframe_simulation*) FLOATFRAME_NOEXCEPT;
+/** Goes back to before the start, keeping options, parameters and inputs: all of them can be set
+ * again, also those that hold for a whole run, as the step. */
+FLOATFRAME_API floatframe_status floatframe_reset(floatframe_simulation*) FLOATFRAME_NOEXCEPT;
 /** The number of notes about the start: what was changed, what is not unique. */
 FLOATFRAME_API int32_t floatframe_note_count(const floatframe_simulation*) FLOATFRAME_NOEXCEPT;
 /** A note about the start, a sentence. */
@@ -203,7 +206,8 @@ FLOATFRAME_API double floatframe_parameter(const floatframe_simulation*,
                                            int32_t index) FLOATFRAME_NOEXCEPT;
 /** Sets a parameter. Before the start, or followed by a new one, the start is found with it, and
  * says if the value is no good. Otherwise it acts from the next step on: the call builds the model
- * again, and allocates. */
+ * again, and allocates. FLOATFRAME_INVALID for one that holds for a whole run, as the step:
+ * floatframe_reset comes before it. */
 FLOATFRAME_API floatframe_status floatframe_set_parameter(floatframe_simulation*, int32_t index,
                                                           double value) FLOATFRAME_NOEXCEPT;
 /** Sets several at once, or none: the model is built once. */

@@ -117,6 +117,14 @@ floatframe_status SimulationHandle::start() {
   return FLOATFRAME_OK;
 }
 
+floatframe_status SimulationHandle::reset() noexcept {
+  simulation_.reset();
+  failed_ = false;
+  notes_.clear();
+  std::ranges::fill(outputs_, std::numeric_limits<double>::quiet_NaN());
+  return FLOATFRAME_OK;
+}
+
 void SimulationHandle::copy_outputs() noexcept {
   std::ranges::copy(simulation_->outputs(), outputs_.begin());
 }

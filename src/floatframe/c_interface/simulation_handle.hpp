@@ -37,6 +37,7 @@ class SimulationHandle {
 
   floatframe_status set_option(const char* key, const char* value);
   floatframe_status start();
+  floatframe_status reset() noexcept;
   floatframe_status step();
   floatframe_status step_by(double size);
   floatframe_status set_input(std::int32_t index, double value);
