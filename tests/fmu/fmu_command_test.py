@@ -15,6 +15,22 @@ CAR = EXAMPLES / "quarter_car" / "quarter_car.yaml"
 RUNTIME = pathlib.Path(BINARY).resolve().parent / "lib" / "fmu" / "linux64" / "floatframe_fmu.so"
 
 
+PACED = """\
+floatframe: 1
+name: paced
+parameters: {pace: 0.01, stiffness: 300}
+bodies:
+  block: {rigid: {mass: 2, centre_of_mass: [0, 0, 0], inertia: [1, 1, 1]}}
+joints:
+  slide: {type: prismatic, child: block, at: [0, 0, 0], axis: x, position: 0.1}
+forces:
+  coil: {type: joint_spring, joint: slide, spring: "${stiffness}"}
+outputs:
+  x: {joint_position: slide}
+simulation: {step: "${pace}", duration: 0.1}
+"""
+
+
 def program(*arguments, folder=None):
     return subprocess.run([str(pathlib.Path(BINARY).resolve()), *map(str, arguments)], capture_output=True, text=True,
                           timeout=280, cwd=folder, check=False)
@@ -63,6 +79,16 @@ class FmuCommand(unittest.TestCase):
         root = self.description("--outputs", "tyre,travel")
         names = [v.get("name") for v in root.iter("ScalarVariable") if v.get("causality") == "output"]
         self.assertEqual(names, ["tyre", "travel"])
+
+    def test_a_parameter_of_the_step_is_fixed(self):
+        model = self.folder / "paced.yaml"
+        model.write_text(PACED)
+        out = self.folder / "paced.fmu"
+        self.assertEqual(program("fmu", model, "-o", out, "--quiet").returncode, 0)
+        with zipfile.ZipFile(out) as archive:
+            root = ElementTree.fromstring(archive.read("modelDescription.xml"))
+        found = {v.get("name"): v.get("variability") for v in root.iter("ScalarVariable") if v.get("causality") == "parameter"}
+        self.assertEqual(found, {"pace": "fixed", "stiffness": "tunable"})
 
     def test_a_packed_model_gives_the_same_file(self):
         packed = self.folder / "car.ffm"

@@ -91,6 +91,17 @@ TEST(ModelDescription, Fmi2) {
     EXPECT_TRUE(contains(xml, part)) << part << "\n" << xml;
 }
 
+TEST(ModelDescription, AParameterOfAWholeRunIsFixed) {
+  FmuContent content = bare_content();
+  content.parameters[1].fixed = true;
+  for (const std::string& xml :
+       {fmi2_model_description(content), fmi3_model_description(content)}) {
+    EXPECT_TRUE(contains(xml, "causality=\"parameter\" variability=\"tunable\""));
+    EXPECT_TRUE(contains(xml, "causality=\"parameter\" variability=\"fixed\""));
+  }
+  EXPECT_TRUE(contains(fmu_page(content, 2, {}, {"linux64"}), "holds for a whole run"));
+}
+
 TEST(ModelDescription, Fmi3) {
   const std::string xml = fmi3_model_description(bare_content());
   for (const char* part :

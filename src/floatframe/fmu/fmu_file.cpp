@@ -13,6 +13,7 @@
 #include "floatframe/fmu/fmu_page.hpp"
 #include "floatframe/fmu/model_description.hpp"
 #include "floatframe/formats/body_file/zip_store.hpp"
+#include "floatframe/stepping/same_structure.hpp"
 
 namespace floatframe {
 namespace {
@@ -49,6 +50,24 @@ class FmuMembers {
   std::vector<std::pair<std::string, std::string>> held_;
 };
 
+/// Whether an option that holds for a whole run, as the step, follows from a parameter: found by
+/// other values of it.
+bool holds_for_a_run(const PackedModel& packed, std::size_t parameter,
+                     const SimulationDescription& present) {
+  std::vector<double> values;
+  for (const PackedParameter& p : packed.parameters()) values.push_back(p.value);
+  const double value = values[parameter];
+  for (const double other : {1.01 * value + 1e-6, 10.0 * value, 0.0}) {
+    values[parameter] = other;
+    try {
+      if (!option_complaint(present, packed.description(values).simulation).empty()) return true;
+    } catch (const InputError&) {
+      continue;  // no value of it
+    }
+  }
+  return false;
+}
+
 std::string text_of(const std::vector<std::byte>& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
@@ -76,7 +95,10 @@ std::string fmu_archive(const PackedModel& packed, const std::vector<FmuBinary>&
     throw InputError(ErrorCode::wrong_value,
                      fmt::format("version of FMI: found {}, expected 2 or 3", options.version));
   const bool third = options.version == 3;
-  const FmuContent content = fmu_content(packed.build(), packed.parameters(), packed.fingerprint());
+  FmuContent content = fmu_content(packed.build(), packed.parameters(), packed.fingerprint());
+  const SimulationDescription present = packed.description().simulation;
+  for (std::size_t i = 0; i < content.parameters.size(); ++i)
+    content.parameters[i].fixed = holds_for_a_run(packed, i, present);
   // The runtime finds a variable by the lower half of its reference.
   constexpr std::size_t most = 0x10000;
   for (const std::vector<FmuVariable>* list :

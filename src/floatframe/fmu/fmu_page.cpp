@@ -56,7 +56,10 @@ std::string variables_html(const std::string& title, const std::string& about,
     PageRow row{code_html(v.name), html_escape(v.unit)};
     if (starts) row.push_back(number_text(v.start));
     if (limits) row.insert(row.end(), {number_text(v.low), number_text(v.high)});
-    row.insert(row.end(), {fmt::format("{}", v.reference), html_escape(v.about)});
+    const std::string about =
+        v.fixed ? "holds for a whole run" + std::string(v.about.empty() ? "" : "; ") + v.about
+                : v.about;
+    row.insert(row.end(), {fmt::format("{}", v.reference), html_escape(about)});
     rows.push_back(std::move(row));
   }
   return fmt::format("<h2>{} ({})</h2>\n<p>{}</p>\n", title, list.size(), about) +
@@ -75,7 +78,7 @@ std::string use_html(const FmuContent& content, int version) {
       "<h2>How to use it</h2>\n<p>An FMU for co-simulation of FMI {}.0: it brings its own "
       "integrator, which makes steps of {} s. A communication step may have any length. If it is "
       "a multiple of the inner step, results are those of <code>floatframe run</code> to the bit; "
-      "else its last inner step is shortened. An input acts from the next step on, so that "
+      "else the last ones are shortened. An input acts from the next step on, so that "
       "no output depends on an input within an instant.</p>\n",
       version, content.step);
   if (!content.parameters.empty())
@@ -127,8 +130,11 @@ std::string fmu_page(const FmuContent& content, int version, const std::vector<s
                         "said; the last value stays.",
                         content.inputs);
   out += variables_html("Outputs", "Of the last instant that was reached.", content.outputs);
-  out += variables_html("Parameters", "Those that take a new value without a build of the model.",
-                        content.parameters);
+  out += variables_html(
+      "Parameters",
+      "Those that take a new value without a build of the model. Where nothing else is said "
+      "a value may change between steps, too.",
+      content.parameters);
   out += variables_html("Figures of the run", "For supervision; no output depends on them.",
                         content.figures);
   std::vector<std::string> all = content.notes;

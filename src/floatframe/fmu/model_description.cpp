@@ -89,10 +89,10 @@ std::string description_of_model(const FmuContent& content) {
 struct VariableWords {
   const char *variability, *initial;
 };
-VariableWords words_of(std::string_view causality) {
+VariableWords words_of(const FmuVariable& v, std::string_view causality) {
   if (causality == "input") return {"continuous", ""};
   if (causality == "output") return {"continuous", "calculated"};
-  if (causality == "parameter") return {"tunable", "exact"};
+  if (causality == "parameter") return {v.fixed ? "fixed" : "tunable", "exact"};
   return {"discrete", "calculated"};
 }
 
@@ -101,8 +101,8 @@ void common_attributes(std::string& out, const FmuVariable& v, std::string_view 
   append(out, " name=\"{}\" valueReference=\"{}\"", xml_text(v.name), v.reference);
   attribute(out, "description", v.about);
   attribute(out, "causality", causality);
-  attribute(out, "variability", words_of(causality).variability);
-  attribute(out, "initial", words_of(causality).initial);
+  attribute(out, "variability", words_of(v, causality).variability);
+  attribute(out, "initial", words_of(v, causality).initial);
 }
 
 void value_attributes(std::string& out, const FmuVariable& v) {
