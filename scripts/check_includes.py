@@ -75,7 +75,7 @@ ALLOWED = {
     "validation": DYNAMICS | RUNS | {"linear", "yaml", "page", "results"},
     "vehicle": DYNAMICS | RUNS | {"results"},
     "analyses": DYNAMICS | RUNS | {"linear", "rotors", "advice", "page", "results", "formats/body_file", "formats/matlab", "model_file"},
-    "fmu": {"core", "math", "body", "inertia", "description", "formulas", "model", "packed", "page", "formats/body_file", "stepping/same_structure.hpp"},
+    "fmu": {"core", "math", "body", "inertia", "description", "formulas", "model", "packed", "page", "formats/body_file", "stepping"},
     "apps": DYNAMICS | FE | RUNS | {"reduction", "formats/body_file", "formats/sid", "formats/text", "parts", "linear", "realtime",
                              "model_file", "history", "page", "results", "export", "analyses", "sweep", "validation", "vehicle", "packed", "fmu"},
     # The benchmarks of the program, in the folder bench of the project, which no other room may include.

@@ -7,12 +7,12 @@
 // clang-format off
 #define FLOATFRAME_FUNCTIONS(F)                                                                  \
   F(interface_version) F(version) F(open_memory) F(close) F(message) F(model_name)               \
-  F(fingerprint) F(set_option) F(start) F(reset) F(note_count) F(note) F(time) F(step_size) F(step)       \
-  F(step_by) F(step_count) F(substep_count) F(iteration_count) F(input_count) F(input_name)      \
-  F(input_unit) F(input_initial) F(input_low) F(input_high) F(find_input) F(input) F(set_input)  \
-  F(output_count) F(output_name) F(output_unit) F(find_output) F(output) F(outputs)              \
-  F(parameter_count) F(parameter_name) F(parameter_unit) F(parameter_about) F(find_parameter)    \
-  F(parameter) F(set_parameter) F(set_parameters) F(save) F(saved) F(restore)
+  F(fingerprint) F(set_option) F(start) F(reset) F(note_count) F(note) F(time) F(step_size)      \
+  F(step) F(step_by) F(step_count) F(substep_count) F(iteration_count) F(input_count)            \
+  F(input_name) F(input_unit) F(input_initial) F(input_low) F(input_high) F(find_input)          \
+  F(input) F(set_input) F(output_count) F(output_name) F(output_unit) F(find_output) F(output)   \
+  F(outputs) F(parameter_count) F(parameter_name) F(parameter_unit) F(parameter_about)           \
+  F(find_parameter) F(parameter) F(set_parameter) F(set_parameters) F(save) F(saved) F(restore)
 // clang-format on
 
 namespace floatframe {
