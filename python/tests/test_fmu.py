@@ -126,6 +126,43 @@ def test_a_run_is_that_of_the_package(write, version):
             assert np.array_equal(result[name][: len(run.time)], run[name]), name
 
 
+PACED = """\
+floatframe: 1
+name: paced
+parameters: {pace: 0.01, stiffness: 300}
+bodies:
+  block: {rigid: {mass: 2, centre_of_mass: [0, 0, 0], inertia: [1, 1, 1]}}
+joints:
+  slide: {type: prismatic, child: block, at: [0, 0, 0], axis: x, position: 0.1}
+forces:
+  coil: {type: joint_spring, joint: slide, spring: "${stiffness}"}
+outputs:
+  x: {joint_position: slide}
+simulation: {step: "${pace}", duration: 0.1}
+"""
+
+
+@pytest.mark.parametrize("version", [2, 3])
+def test_parameters_before_the_start_are_those_of_the_model(write, version, tmp_path):
+    file, _ = write(PACED, version)
+    found = {v.name: v.variability for v in fmpy.read_model_description(file).modelVariables if v.causality == "parameter"}
+    assert found == {"pace": "fixed", "stiffness": "tunable"}
+    values = {"pace": 0.005, "stiffness": 450.0}
+    result = fmpy.simulate_fmu(file, start_values=values, stop_time=0.1, output_interval=0.005)
+    model = tmp_path / "paced.yaml"
+    model.write_text(PACED)
+    run = ff.run(ff.Model.load(model, **values))
+    assert np.array_equal(result["x"], run["x"])
+
+
+@pytest.mark.parametrize("version", [2, 3])
+def test_a_step_a_little_longer_than_that_of_the_model(write, version):
+    file, _ = write(PACED, version)
+    result = fmpy.simulate_fmu(file, stop_time=0.1, output_interval=0.0101)
+    exact = 0.1 * np.cos(np.sqrt(150.0) * result["time"])
+    assert np.abs(result["x"] - exact).max() < 1e-3
+
+
 def test_a_choice_of_outputs(write):
     file, _ = write(HOSTILE, 2, "--outputs", "x,a b")
     description = fmpy.read_model_description(file)
