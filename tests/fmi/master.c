@@ -177,6 +177,7 @@ static void step(Master* m, double time) {
 }
 
 static void save(Master* m, long done) {
+  const double steps = (double)done; /* of one size on all systems */
   void* state = NULL;
   size_t size = 0;
   unsigned char* bytes;
@@ -186,7 +187,7 @@ static void save(Master* m, long done) {
   bytes = malloc(size);
   must(!bytes || !file ? 3 : m->version == 2 ? (int)write2(m->library)(m->c, state, (fmi2Byte*)bytes, size)
                                              : (int)write3(m->library)(m->c, state, bytes, size), "write", 0.0);
-  fwrite(&done, sizeof done, 1, file);
+  fwrite(&steps, sizeof steps, 1, file);
   fwrite(bytes, 1, size, file);
   fclose(file);
   free(bytes);
@@ -197,21 +198,21 @@ static long restore(Master* m) {
   FILE* file = fopen(m->task->load_from, "rb");
   unsigned char* bytes;
   size_t size;
-  long done = 0;
+  double steps = 0.0;
   void* state = NULL;
   must(file ? 0 : 3, "open the state", 0.0);
   fseek(file, 0, SEEK_END);
-  size = (size_t)ftell(file) - sizeof done;
+  size = (size_t)ftell(file) - sizeof steps;
   rewind(file);
   bytes = malloc(size);
-  must(bytes && fread(&done, sizeof done, 1, file) == 1 && fread(bytes, 1, size, file) == size ? 0 : 3, "load", 0.0);
+  must(bytes && fread(&steps, sizeof steps, 1, file) == 1 && fread(bytes, 1, size, file) == size ? 0 : 3, "load", 0.0);
   fclose(file);
   must(m->version == 2 ? (int)read2(m->library)(m->c, (fmi2Byte*)bytes, size, &state)
                        : (int)read3(m->library)(m->c, bytes, size, &state), "read", 0.0);
   must(CALL(m, set_state, m->c, state), "set state", 0.0);
   must(CALL(m, free_state, m->c, &state), "free state", 0.0);
   free(bytes);
-  return done;
+  return (long)steps;
 }
 
 static void again(Master* m, double time) {
