@@ -193,6 +193,18 @@ def share_of_tyres(program):
         return json.loads(out.read_text(encoding="utf-8"))["relative"]["share of tyres"]
 
 
+def cost_in_fmus(program):
+    """Instructions of doStep in an FMU, of those of `Simulation::step`; no step there may take memory from the heap."""
+    with tempfile.TemporaryDirectory(prefix="floatframe-count-") as folder:
+        out = pathlib.Path(folder) / "cost.json"
+        done = subprocess.run([sys.executable, "-B", str(ROOT / "bench/fmu_cost.py"), "--program", str(program), "--no-times",
+                               "--json", str(out)], capture_output=True, text=True, check=False)
+        if done.returncode:
+            sys.exit(f"held_figures: bench/fmu_cost.py failed:\n{done.stdout}{done.stderr[-2000:]}")
+        return {f"doStep of an FMU, of a step of the class Simulation: {name}": round(figures["ratio"], 4)
+                for name, figures in json.loads(out.read_text(encoding="utf-8")).items()}
+
+
 def instruction_figures(program):
     if not shutil.which("valgrind"):
         sys.exit("held_figures: valgrind not found; Debian package: valgrind")
@@ -221,6 +233,8 @@ def instruction_figures(program):
     for options in LAWS:
         by_formula, in_cpp = (collected(program, [model, *options])[0] for model in ("formulas", "laws"))
         figures[f"steps with laws by formulas, of those with the same laws in C++, {options[1]}"] = round(by_formula / in_cpp, 3)
+    if (pathlib.Path(program).resolve().parent / "lib/fmu/linux64/floatframe_fmu.so").exists():
+        figures.update(cost_in_fmus(program))
     with_inertia, stiffened = (figures["instructions per iteration: rotor, " + key]
                                for key in ("sections with inertia", "with geometric stiffening"))
     print(f"sections with inertia cost {with_inertia / stiffened:.3f} of geometric stiffening")
