@@ -1,5 +1,5 @@
-// What a step costs inside an FMU, and what it costs in a program (bench/fmu_cost.py). All steps are
-// made inside one function of a fixed name, floatframe_counted_steps, where callgrind counts.
+// What a step costs inside an FMU, and what it costs in a program (bench/fmu_cost.py). All steps
+// are made inside one function of a fixed name, floatframe_counted_steps, where callgrind counts.
 //
 //   step_costs fmu LIBRARY RESOURCES TOKEN STEP COUNT   doStep of FMI 2.0
 //   step_costs program MODEL.ffm COUNT                  Simulation::step of the same packed model
