@@ -58,6 +58,32 @@ TEST(TimeGrid, RoundingMakesNoPart) {
   EXPECT_EQ(TimeGrid(0.0, 0.1, 0.0).steps(), 0);
 }
 
+// A bit of a late time is more than 1e-9 of a step.
+TEST(TimeGrid, RoundingOfLateTimesMakesNoPart) {
+  struct Late {
+    double base, step, duration;
+    long steps;
+  };
+  for (const Late& x : {Late{0.0, 0.0003, 2400.0399, 8000133}, Late{0.0, 1e-6, 60.000084, 60000084},
+                        Late{0.0, 1e-6, 100.000021, 100000021}, Late{1e6, 1e-3, 1.00000001e-3, 1},
+                        Late{-1e6, 1e-3, 5.00000001e-3, 5}, Late{1234567.8, 1e-3, 0.25, 250}}) {
+    TimeGrid grid(x.base, x.step, x.duration);
+    ASSERT_EQ(grid.steps(), x.steps) << x.base << ", " << x.step;
+    for (long k = std::max(0L, x.steps - 1000); k < x.steps; ++k) {
+      grid.restore(x.base, k);
+      const PlannedStep s = grid.next();
+      EXPECT_TRUE(s.whole) << k << " of " << x.steps << ", " << x.step;
+      EXPECT_EQ(s.size, x.step);
+      EXPECT_LE(s.to, x.base + x.duration);
+    }
+  }
+  // A part that is more than rounding remains one.
+  TimeGrid grid(1e6, 1e-3, 2.5e-3);
+  ASSERT_EQ(grid.steps(), 3);
+  grid.restore(1e6, 2);
+  EXPECT_NEAR(grid.next().size, 0.5e-3, 1e-9);
+}
+
 TEST(TimeGrid, AStepOfAnotherSizeBeginsItAnew) {
   TimeGrid grid(0.0, 0.1, TimeGrid::endless);
   grid.made(grid.of_size(0.1, 0.0));

@@ -282,7 +282,7 @@ void AbsoluteTangent::assemble_parts(const Weights& t, BlockLdlt& matrix) noexce
 }
 
 int AbsoluteTangent::factorize(const Weights& t, int slot) noexcept {
-  assert(t.mass >= 0.0 && t.s >= 0.0 && t.penalty >= 0.0);
+  assert(!(t.mass < 0.0) && !(t.s < 0.0) && !(t.penalty < 0.0));  // or NaN: h^2 overflows
   BlockLdlt& matrix = factors_[slot];
   matrix.set_zero();
   for (std::size_t i = 0; i < bodies_.size(); ++i) assemble_body(t, static_cast<int>(i), matrix);

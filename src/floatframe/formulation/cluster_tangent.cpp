@@ -354,7 +354,7 @@ void ClusterTangent::hand_front_to_parent(const Cluster& c, const MatX& front) n
 int ClusterTangent::factorize(const std::vector<BodyTerms>& terms, const Weights& weights,
                               int slot) noexcept {
   assert((slot == 0 || slot == 1) && terms.size() == bodies_.size());
-  assert(weights.mass >= 0.0 && weights.s >= 0.0 && weights.penalty >= 0.0);
+  assert(!(weights.mass < 0.0) && !(weights.s < 0.0) && !(weights.penalty < 0.0));  // or NaN
   Factors& factors = factors_[slot];
   clear_geometric();
   if (weights.geometric) gather_geometric(weights.s);

@@ -50,13 +50,14 @@ Mat3 times9(const MatX& S, const double* x) noexcept {
 PreprocessingData::PreprocessingData(const InertiaInvariants& v)
     : m(v.m), m_u(v.m_u), P_u(v.P_u), S(v.S) {
   const int nm = v.modes();
-  assert(v.m >= 0.0 && all_finite(v.m_u) && all_finite(v.P_u) && is_symmetric(v.P_u));
+  // Masses may overflow: the start says so of the mass matrix.
+  assert(!(v.m < 0.0) && is_symmetric(v.P_u));
   FLOATFRAME_DEBUG(for (const Mat3X& of_axis : v.Si) assert(of_axis.cols() == nm);)
   Si.resize(9, nm);
   Sij.resize(9 * nm, nm);
   Sij_sum.resize(6, nm * nm);
   M_ff = modal_mass(v);  // (40)
-  assert(is_symmetric(M_ff) && (nm == 0 || M_ff.diagonal().minCoeff() >= 0.0));
+  assert(is_symmetric(M_ff) && !(M_ff.diagonal().array() < 0.0).any());
   for (int i = 0; i < 3; ++i) Si.middleRows<3>(3 * i) = v.Si[i];
   const int nl = by_modes.stride = (nm + 3) & ~3;
   by_modes.S = VecX::Zero(3 * nl);

@@ -180,7 +180,7 @@ class AugmentedLagrangian final : public Integrator {
 
   void newton(const State& state, const Scheme& k, StepAttempt& report) noexcept {
     const bool constrained = f_.constraints() > 0;
-    assert(report.iterations == 0 && k.penalty > 0.0 && k.alpha > 0.0);
+    assert(report.iterations == 0 && k.penalty > 0.0 && k.alpha >= 0.0);  // 0: h^2 overflows
     Iterate it;
     it.penalty = k.penalty;
     it.alpha = k.alpha;
@@ -256,7 +256,7 @@ class AugmentedLagrangian final : public Integrator {
 
   /// (g). False if it is singular, even with a reduced penalty.
   bool renew_tangent(const Scheme& k, Iterate& it, StepAttempt& report) noexcept {
-    assert(it.alpha > 0.0 && it.penalty > 0.0);
+    assert(it.alpha >= 0.0 && it.penalty > 0.0);
     int pivot = f_.factorize(1.0, k.c1 / k.c2, k.s, it.alpha, newton_slot);
     ++report.factorizations;
     for (int retry = 0; f_.constraints() > 0 && pivot >= 0 && retry < max_penalty_reductions;
@@ -304,7 +304,8 @@ class AugmentedLagrangian final : public Integrator {
     ++report.iterations;
     const double rate = report.iterations > 1 && last > 0.0 ? it.increment / last : 1.0;
     it.error = rate < 0.5 ? it.increment * rate / (1.0 - rate) : it.increment;
-    if (report.iterations > 1 && last > 0.0 && !it.renew) reuse_.contraction = std::min(rate, 1.0);
+    if (report.iterations > 1 && last > 0.0 && !it.renew)
+      reuse_.contraction = rate < 1.0 ? rate : 1.0;  // also if it is not a number
   }
 
   bool is_converged(const StepAttempt& report, double error) const noexcept {

@@ -42,6 +42,7 @@ void warm_up(const Stepper& model) {
   std::vector<double> moved(inputs.begin(), inputs.end());
   if (moved.empty()) return;
   for (double& x : moved) x += 1e-3 * (1.0 + std::abs(x));
+  second.restart();  // its grid has ended
   second.formulation().set_inputs(moved);
   second.advance();
 }

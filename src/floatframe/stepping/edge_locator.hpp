@@ -187,7 +187,7 @@ class EdgeLocator {
 
   /// By linear interpolation from the beginning to `sides`, at `at`; `but`: the force to skip.
   Crossing earliest(const Sides& sides, double at, std::size_t but) const noexcept {
-    assert(at > 0.0 && sides.size() == first_.size());
+    assert(at >= 0.0 && sides.size() == first_.size());  // 0: a force that begins on its edge
     Crossing c;
     for (std::size_t k = 0; k < sides.size(); ++k) {
       if (k == but || !(sides[k].beyond > 0.0)) continue;
@@ -208,7 +208,7 @@ class EdgeLocator {
     double low_side = std::min(first_[force].beyond, 0.0), high_side = last_[force].beyond;
     int idle = 0;  // passes in a row that kept the other end: > 0 the upper one
     for (int pass = 0; pass < most_passes; ++pass) {
-      const double at = low + (high - low) * low_side / (low_side - high_side);
+      const double at = std::min(high, low + (high - low) * low_side / (low_side - high_side));
       assert(at >= low && at <= high);
       return_to(state);
       moved_ = at * left < shortest * h;

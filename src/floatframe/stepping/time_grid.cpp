@@ -8,15 +8,21 @@ namespace floatframe {
 
 long TimeGrid::steps() const noexcept {
   if (std::isinf(duration_)) return std::numeric_limits<long>::max();
-  return std::max(0L, std::lround(std::ceil(duration_ / step_ - 1e-9)));
+  return std::lround(std::max(0.0, std::ceil((duration_ - slack(base_ + duration_)) / step_)));
+}
+
+double TimeGrid::slack(double to) const noexcept {
+  constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
+  return 1e-9 * step_ + rounding * (std::abs(base_) + std::abs(to));
 }
 
 PlannedStep TimeGrid::next() const noexcept {
   const double from = base_ + static_cast<double>(since_base_) * step_;
+  const double to = base_ + static_cast<double>(since_base_ + 1) * step_, end = base_ + duration_;
   PlannedStep s;
-  s.to = std::min(base_ + static_cast<double>(since_base_ + 1) * step_, base_ + duration_);
-  s.whole = !(s.to - from < (1.0 - 1e-9) * step_);
-  s.size = s.whole ? step_ : s.to - from;
+  s.to = std::min(to, end);
+  s.whole = !(end < to - slack(to));
+  s.size = s.whole ? step_ : end - from;
   return s;
 }
 

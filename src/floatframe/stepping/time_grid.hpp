@@ -46,6 +46,10 @@ class TimeGrid {
   }
 
  private:
+  /// By which an end of the duration near the end of a step may miss it: a part this short would
+  /// be made of rounding [s].
+  double slack(double to) const noexcept;
+
   double base_, step_, duration_;
   std::int64_t since_base_ = 0;
 };
