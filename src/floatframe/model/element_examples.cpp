@@ -1,6 +1,5 @@
 // Examples of elements for the tests that run over all kinds.
-#include <array>
-#include <memory>
+#include <string>
 
 #include "floatframe/model/element_kind.hpp"
 
