@@ -111,7 +111,7 @@ floatframe_status set_fake_parameters(Fake* s, const std::int32_t* k, const doub
                                       std::size_t count) noexcept {
   for (std::size_t i = 0; i < count; ++i)
     if (s->started && k[i] == 1 && values[i] == 7.0)
-      return s->say(FLOATFRAME_INVALID, "this mass holds for a whole run");
+      return s->say(FLOATFRAME_INVALID, "this mass stays as it is");
   for (std::size_t i = 0; i < count; ++i)
     if (const auto status = set_fake_parameter(s, k[i], values[i])) return status;
   return FLOATFRAME_OK;
