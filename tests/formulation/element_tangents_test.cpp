@@ -48,7 +48,7 @@ Model everything(unsigned seed) {
   for (const ElementType type : types_of(ElementList::forces)) {
     const ElementKind& kind = element_kind(type);
     for (std::size_t regime = 0; regime < kind.regimes.size(); ++regime) {
-      ElementExample x = kind.example(regime, numbers);
+      ElementExample x = element_example(type, regime, numbers);
       Element e = x.element;
       e.name = std::string(element_type_name(type)) + "_" + kind.regimes[regime].name;
       const std::size_t body = model.elements.size() % names.size();

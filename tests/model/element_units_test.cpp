@@ -17,7 +17,7 @@ TEST(ElementUnits, EveryValueHasItsOwn) {
   ExampleNumbers numbers(11);
   int several = 0;
   for (const ElementType type : element_types) {
-    const ElementExample x = element_kind(type).example(0, numbers);
+    const ElementExample x = element_example(type, 0, numbers);
     const std::vector<ElementValue> values = values_of_element(*x.element.keys);
     EXPECT_EQ(values.size(), x.element.values.size());
     if (values.empty()) continue;

@@ -18,7 +18,7 @@ constexpr ElementType rolling_laws[] = {ElementType::linear_tyre, ElementType::m
 
 ElementExample example_of(ElementType type, RollingRegime regime, unsigned seed = 11) {
   ExampleNumbers numbers(seed);
-  return element_kind(type).example(static_cast<std::size_t>(regime), numbers);
+  return element_example(type, static_cast<std::size_t>(regime), numbers);
 }
 
 /// The keys that all of them share.

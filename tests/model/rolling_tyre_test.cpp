@@ -158,7 +158,7 @@ TEST(RollingTyre, AtRestNoDeflectionStaysBeyondTheLargestForce) {
   for (const ElementType type : {ElementType::magic_formula_tyre, ElementType::tmeasy_tyre}) {
     ExampleNumbers numbers(9);
     ElementExample x =
-        element_kind(type).example(static_cast<std::size_t>(RollingRegime::rolling), numbers);
+        element_example(type, static_cast<std::size_t>(RollingRegime::rolling), numbers);
     x.markers[0].v.setZero();
     x.markers[0].w.setZero();
     const auto at = [&](double u) {
@@ -199,7 +199,7 @@ TEST(RollingTyre, BackwardsIsTheMirrorImage) {
 template <class Keys>
 WrenchOf<double> just_touching(ElementType type, RollingRegime regime, double depth) {
   ExampleNumbers numbers(7);
-  ElementExample x = element_kind(type).example(static_cast<std::size_t>(regime), numbers);
+  ElementExample x = element_example(type, static_cast<std::size_t>(regime), numbers);
   Keys keys = std::get<Keys>(*x.element.keys);
   keys.damping = 0.0;
   x.keys(keys);
@@ -243,7 +243,7 @@ TEST(RollingTyre, DoesNotTouchFarInTheAir) {
                                  ElementType::tmeasy_tyre, ElementType::calspan_tyre}) {
     ExampleNumbers numbers(8);
     ElementExample x =
-        element_kind(type).example(static_cast<std::size_t>(RollingRegime::cambered), numbers);
+        element_example(type, static_cast<std::size_t>(RollingRegime::cambered), numbers);
     for (const double up : {0.3, 1.0, 10.0, 1e3}) {
       x.markers[0].r.z() += up;
       EXPECT_EQ(efforts(x).force, 0.0) << element_kind(type).about << " " << up;

@@ -55,7 +55,7 @@ TEST(PackedElements, ActAsBefore) {
   ExampleNumbers numbers(7);
   for (const ElementType type : element_types)
     for (std::size_t regime = 0; regime < element_kind(type).regimes.size(); ++regime) {
-      ElementExample x = element_kind(type).example(regime, numbers);
+      ElementExample x = element_example(type, regime, numbers);
       const std::string name =
           std::string(element_type_name(type)) + " " + element_kind(type).regimes[regime].name;
       const auto* law = std::get_if<ForceLaw>(&*x.element.keys);

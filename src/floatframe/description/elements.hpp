@@ -2,8 +2,8 @@
 // All elements: the struct of each type, with which a program describes one, and the list. An entry
 // is the word of model files, the enumerator of ElementType and the name of the source file
 // model/elements/<name>.cpp, which reflects the struct in a table of keys and ends in the
-// ElementKind `<name>_element`; then the struct. Everything else runs over this
-// list. Numbers and messages follow its order.
+// ElementKind `<name>_element` and its `<name>_examples`; then the struct. Everything else runs
+// over this list. Numbers and messages follow its order.
 //
 // Points and directions are those of the design configuration. Laws are functions of a measure.
 #include <optional>

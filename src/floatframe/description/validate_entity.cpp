@@ -11,7 +11,7 @@ namespace floatframe::validation {
 
 namespace {
 
-std::string indexed(const std::string& key, Eigen::Index i) {
+std::string indexed(const std::string& key, std::size_t i) {
   return key + "[" + std::to_string(i + 1) + "]";
 }
 
@@ -57,9 +57,7 @@ bool Entity::vector(const std::string& key, const Vec3& v, const char* unit) con
 bool Entity::list(const std::string& key, const std::vector<double>& v) const {
   bool good = true;
   for (std::size_t i = 0; i < v.size(); ++i)
-    good = number(v.size() == 1 ? key : indexed(key, static_cast<Eigen::Index>(i)), v[i],
-                  any_number("")) &&
-           good;
+    good = number(v.size() == 1 ? key : indexed(key, i), v[i], any_number("")) && good;
   return good;
 }
 
@@ -127,11 +125,14 @@ bool Entity::pieces(const std::string& key, const PiecewisePolynomial& f, bool m
   }
   bool good = true;
   const auto piece = [&](std::size_t k, const char* part) {
-    return key + (n == 1 ? std::string() : indexed(".piecewise", static_cast<Eigen::Index>(k))) +
-           part;
+    return key + (n == 1 ? std::string() : indexed(".piecewise", k)) + part;
+  };
+  // Roads have a hundred thousand pieces: names are made of what is wrong alone.
+  const auto finite = [&](double x, const auto& name) {
+    return std::isfinite(x) || number(name(), x, any_number(""));
   };
   for (std::size_t k = 0; k < breaks.size(); ++k) {
-    if (!number(piece(k, ".below"), breaks[k], any_number(""))) {
+    if (!finite(breaks[k], [&] { return piece(k, ".below"); })) {
       good = false;
     } else if (k > 0 && (may_jump ? breaks[k] < breaks[k - 1] : breaks[k] <= breaks[k - 1])) {
       error(ErrorCode::out_of_range, piece(k, ".below"),
@@ -142,7 +143,7 @@ bool Entity::pieces(const std::string& key, const PiecewisePolynomial& f, bool m
   }
   for (std::size_t k = 0; k < n; ++k) {
     const PiecewisePolynomial::Piece& p = f.pieces()[k];
-    good = number(piece(k, ".about"), p.centre, any_number("")) && good;
+    good = finite(p.centre, [&] { return piece(k, ".about"); }) && good;
     if (p.coefficients.empty() || p.coefficients.size() > rules::most_coefficients) {
       error(ErrorCode::wrong_count, piece(k, ".polynomial"),
             "found a list of " + std::to_string(p.coefficients.size()) + ", expected " +
@@ -150,9 +151,7 @@ bool Entity::pieces(const std::string& key, const PiecewisePolynomial& f, bool m
       good = false;
     }
     for (std::size_t i = 0; i < p.coefficients.size(); ++i)
-      good = number(indexed(piece(k, ".polynomial"), static_cast<Eigen::Index>(i)),
-                    p.coefficients[i], any_number("")) &&
-             good;
+      good = finite(p.coefficients[i], [&] { return indexed(piece(k, ".polynomial"), i); }) && good;
   }
   if (!good || may_jump) return good;
   const auto jump = sentences::jump(f);
@@ -171,8 +170,7 @@ void Entity::function(const std::string& key, const TimeFunction& f, bool may_ju
     const SineTerm& s = f.sines[k];
     const bool chirp = s.rate != 0.0 || s.duration != 0.0;
     const std::string name = chirp ? ".chirp" : ".sine";
-    const std::string sine =
-        key + (f.sines.size() == 1 ? name : indexed(name, static_cast<Eigen::Index>(k)));
+    const std::string sine = key + (f.sines.size() == 1 ? name : indexed(name, k));
     number(sine + ".amplitude", s.amplitude, any_number(""));
     number(sine + ".phase", s.phase, any_number("rad"));
     number(sine + ".start", s.start, any_number("s"));

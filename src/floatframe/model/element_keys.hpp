@@ -111,27 +111,39 @@ struct Optional : std::false_type {};
 template <class T>
 struct Optional<std::optional<T>> : std::true_type {};
 
+// One function per type of a value, none per member: at load time size matters, not speed.
+template <class T>
+[[gnu::noinline]] std::optional<KeyValue> given(const T& x) {
+  return KeyValue(x);
+}
+template <class T>
+[[gnu::noinline]] void assign(T& x, const KeyValue& value) {
+  x = std::get<T>(value);
+}
+template <class T>
+[[gnu::noinline]] void assign(std::optional<T>& x, const KeyValue& value) {
+  x = std::get<T>(value);
+}
+
 template <class S, auto member>
 std::optional<KeyValue> read(const ElementDescription& f) {
   const auto& x = std::get<S>(f.kind).*member;
   using T = std::remove_cvref_t<decltype(x)>;
   if constexpr (Optional<T>::value)
-    return x ? std::optional(KeyValue(*x)) : std::nullopt;
+    return x ? given(*x) : std::nullopt;
   else if constexpr (std::is_enum_v<T>)
-    return KeyValue(static_cast<int>(x));
+    return given(static_cast<int>(x));
   else
-    return KeyValue(x);
+    return given(x);
 }
 template <class S, auto member>
 void write(ElementDescription& f, const KeyValue& value) {
   auto& x = std::get<S>(f.kind).*member;
   using T = std::remove_cvref_t<decltype(x)>;
-  if constexpr (Optional<T>::value)
-    x = std::get<typename T::value_type>(value);
-  else if constexpr (std::is_enum_v<T>)
+  if constexpr (std::is_enum_v<T>)
     x = static_cast<T>(std::get<int>(value));
   else
-    x = std::get<T>(value);
+    assign(x, value);
 }
 template <class S, auto member>
 std::span<const std::byte> bytes(const ElementDescription& f) {

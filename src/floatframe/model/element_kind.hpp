@@ -174,13 +174,18 @@ struct ElementKind {
   /// nothing else.
   std::string (*linear_note)(const Element& element) = nullptr;
   std::span<const ElementRegime> regimes;
-  /// A random element and motion in one of the regimes, away from the kinks of its laws.
-  ElementExample (*example)(std::size_t regime, ExampleNumbers&);
 };
 
 const ElementKind& element_kind(ElementType type) noexcept;
 
-#define FLOATFRAME_KIND(name, Keys) extern const ElementKind name##_element;
+/// A random element and motion in one of the regimes, away from the kinks of its laws.
+ElementExample element_example(ElementType type, std::size_t regime, ExampleNumbers& numbers);
+/// They stand beside the kinds, not in them: the linker leaves out of FMUs what none of them calls.
+using ExampleMaker = ElementExample (*)(std::size_t regime, ExampleNumbers&);
+
+#define FLOATFRAME_KIND(name, Keys)        \
+  extern const ElementKind name##_element; \
+  extern const ExampleMaker name##_examples;
 FLOATFRAME_ELEMENTS(FLOATFRAME_KIND)
 #undef FLOATFRAME_KIND
 

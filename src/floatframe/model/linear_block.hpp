@@ -82,8 +82,7 @@ ElementExample block_example(ElementExample x, Keys keys, ExampleNumbers& number
 
 /// What blocks, elements whose only result is their value, have in common.
 template <class Keys>
-constexpr ElementKind block_kind(const char* about, std::span<const ElementKey> keys,
-                                 ElementExample (*example)(std::size_t, ExampleNumbers&)) {
+constexpr ElementKind block_kind(const char* about, std::span<const ElementKey> keys) {
   return {.about = about,
           .keys = keys,
           .list = ElementList::controllers,
@@ -92,8 +91,7 @@ constexpr ElementKind block_kind(const char* about, std::span<const ElementKey> 
           .measured = false,
           .blank = [] { return ElementKeys(Keys()); },
           .build = [](ElementBuild&) { return true; },
-          .regimes = block_regimes,
-          .example = example};
+          .regimes = block_regimes};
 }
 
 }  // namespace floatframe

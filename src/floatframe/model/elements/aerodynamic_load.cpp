@@ -160,7 +160,8 @@ constinit const ElementKind aerodynamic_load_element = {
         },
     .dual = aerodynamic_load_law<Dual>,
     .picture = picture_of_aerodynamic_load,
-    .regimes = aerodynamic_load_regimes,
-    .example = aerodynamic_load_example};
+    .regimes = aerodynamic_load_regimes};
+
+constinit const ExampleMaker aerodynamic_load_examples = aerodynamic_load_example;
 
 }  // namespace floatframe

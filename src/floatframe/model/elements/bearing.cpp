@@ -297,7 +297,8 @@ constinit const ElementKind bearing_element = {
     .bears = true,
     .dual = bearing_law<Dual>,
     .picture = bearing_picture,
-    .regimes = bearing_regimes,
-    .example = bearing_example};
+    .regimes = bearing_regimes};
+
+constinit const ExampleMaker bearing_examples = bearing_example;
 
 }  // namespace floatframe

@@ -133,7 +133,8 @@ constinit const ElementKind belt_element = {
     .dual = belt_law<Dual>,
     .picture = picture_of_coordinate,
     .strokes = belt_strokes,
-    .regimes = std::span(coupled_spring_regimes).first(2),
-    .example = belt_example};
+    .regimes = std::span(coupled_spring_regimes).first(2)};
+
+constinit const ExampleMaker belt_examples = belt_example;
 
 }  // namespace floatframe

@@ -75,7 +75,8 @@ constinit const ElementKind bevel_gear_element = {
     .build = bevel_gear_build,
     .rows = coupled_rows,
     .strokes = bevel_gear_strokes,
-    .regimes = holding_regimes,
-    .example = bevel_gear_example};
+    .regimes = holding_regimes};
+
+constinit const ExampleMaker bevel_gear_examples = bevel_gear_example;
 
 }  // namespace floatframe

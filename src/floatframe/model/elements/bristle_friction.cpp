@@ -264,7 +264,8 @@ constinit const ElementKind bristle_friction_element = {
     .dual = bristle_friction_law<Dual>,
     .picture = picture_of_coordinate,
     .linear_note = bristle_friction_linear_note,
-    .regimes = bristle_friction_regimes,
-    .example = bristle_friction_example};
+    .regimes = bristle_friction_regimes};
+
+constinit const ExampleMaker bristle_friction_examples = bristle_friction_example;
 
 }  // namespace floatframe

@@ -297,7 +297,8 @@ constinit const ElementKind bushing_element = {
     .ends_at_half_turn = bushing_ends,
     .dual = bushing_law<Dual>,
     .picture = bushing_picture,
-    .regimes = bushing_regimes,
-    .example = bushing_example};
+    .regimes = bushing_regimes};
+
+constinit const ExampleMaker bushing_examples = bushing_example;
 
 }  // namespace floatframe

@@ -179,12 +179,13 @@ constexpr ElementKind calspan_kind() {
     element.kept = rolling::kept;
     element.rates_first = true;
   };
-  kind.example = calspan_example;
   return kind;
 }
 
 }  // namespace
 
 constinit const ElementKind calspan_tyre_element = calspan_kind();
+
+constinit const ExampleMaker calspan_tyre_examples = calspan_example;
 
 }  // namespace floatframe

@@ -216,7 +216,8 @@ constinit const ElementKind cam_element = {
     .build = cam_build,
     .rows = cam_rows,
     .strokes = cam_strokes,
-    .regimes = holding_regimes,
-    .example = cam_example};
+    .regimes = holding_regimes};
+
+constinit const ExampleMaker cam_examples = cam_example;
 
 }  // namespace floatframe

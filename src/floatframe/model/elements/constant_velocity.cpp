@@ -67,7 +67,8 @@ constinit const ElementKind constant_velocity_element = {
     .build = constant_velocity_build,
     .rows = constant_velocity_rows,
     .picture = picture_of_constraint,
-    .regimes = constraint_regimes,
-    .example = constant_velocity_example};
+    .regimes = constraint_regimes};
+
+constinit const ExampleMaker constant_velocity_examples = constant_velocity_example;
 
 }  // namespace floatframe

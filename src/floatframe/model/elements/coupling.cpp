@@ -84,7 +84,8 @@ constinit const ElementKind coupling_element = {.about = "holds a sum of coordin
                                                 .validate = coupling_validate,
                                                 .build = coupling_build,
                                                 .rows = coupling_rows,
-                                                .regimes = holding_regimes,
-                                                .example = coupling_example};
+                                                .regimes = holding_regimes};
+
+constinit const ExampleMaker coupling_examples = coupling_example;
 
 }  // namespace floatframe

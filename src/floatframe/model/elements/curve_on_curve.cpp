@@ -155,7 +155,8 @@ constinit const ElementKind curve_on_curve_element = {
     .mirror = curve_on_curve_mirror,
     .picture = picture_of_constraint,
     .strokes = curve_on_curve_strokes,
-    .regimes = constraint_regimes,
-    .example = curve_on_curve_example};
+    .regimes = constraint_regimes};
+
+constinit const ExampleMaker curve_on_curve_examples = curve_on_curve_example;
 
 }  // namespace floatframe

@@ -211,7 +211,7 @@ ElementExample delay_example(std::size_t regime, ExampleNumbers& numbers) {
 }  // namespace
 
 constinit const ElementKind delay_element = [] {
-  auto kind = block_kind<Delay>("its input as it was some time before", delay_keys, delay_example);
+  auto kind = block_kind<Delay>("its input as it was some time before", delay_keys);
   kind.validate = delay_validate;
   kind.build = delay_build;
   kind.states = delay_states;
@@ -223,5 +223,7 @@ constinit const ElementKind delay_element = [] {
   kind.regimes = delay_regimes;
   return kind;
 }();
+
+constinit const ExampleMaker delay_examples = delay_example;
 
 }  // namespace floatframe

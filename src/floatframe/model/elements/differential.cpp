@@ -54,7 +54,8 @@ constinit const ElementKind differential_element = {
     .build = differential_build,
     .rows = coupled_rows,
     .strokes = differential_strokes,
-    .regimes = holding_regimes,
-    .example = differential_example};
+    .regimes = holding_regimes};
+
+constinit const ExampleMaker differential_examples = differential_example;
 
 }  // namespace floatframe

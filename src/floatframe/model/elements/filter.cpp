@@ -74,8 +74,7 @@ ElementExample filter_example(std::size_t regime, ExampleNumbers& numbers) {
 }  // namespace
 
 constinit const ElementKind filter_element = [] {
-  auto kind =
-      block_kind<LowPass>("a low pass of first or second order", filter_keys, filter_example);
+  auto kind = block_kind<LowPass>("a low pass of first or second order", filter_keys);
   kind.validate = filter_validate;
   kind.states = filter_states;
   kind.start = start_linear_block;
@@ -83,5 +82,7 @@ constinit const ElementKind filter_element = [] {
   kind.regimes = filter_regimes;
   return kind;
 }();
+
+constinit const ExampleMaker filter_examples = filter_example;
 
 }  // namespace floatframe

@@ -46,7 +46,8 @@ constinit const ElementKind force_element = {.about = "force on a point of a bod
                                              .build = force_build,
                                              .dual = force_law<Dual>,
                                              .picture = force_picture,
-                                             .regimes = force_regimes,
-                                             .example = force_example};
+                                             .regimes = force_regimes};
+
+constinit const ExampleMaker force_examples = force_example;
 
 }  // namespace floatframe

@@ -215,7 +215,8 @@ constinit const ElementKind force_law_element = {
     .dual = force_law_law<Dual>,
     .side = force_law_side,
     .picture = force_law_picture,
-    .regimes = force_law_regimes,
-    .example = force_law_example};
+    .regimes = force_law_regimes};
+
+constinit const ExampleMaker force_law_examples = force_law_example;
 
 }  // namespace floatframe

@@ -143,7 +143,8 @@ constinit const ElementKind formula_element = {.about = "the value of a formula"
                                                .complaint = formula_complaint,
                                                .dual = formula_law<Dual>,
                                                .side = formula_side,
-                                               .regimes = formula_regimes,
-                                               .example = formula_example};
+                                               .regimes = formula_regimes};
+
+constinit const ExampleMaker formula_examples = formula_example;
 
 }  // namespace floatframe

@@ -276,7 +276,8 @@ constinit const ElementKind gear_element = {
     .side = gear_side,
     .picture = picture_of_coordinate,
     .strokes = gear_strokes,
-    .regimes = coupled_spring_regimes,
-    .example = gear_example};
+    .regimes = coupled_spring_regimes};
+
+constinit const ExampleMaker gear_examples = gear_example;
 
 }  // namespace floatframe

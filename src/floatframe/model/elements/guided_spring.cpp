@@ -122,7 +122,8 @@ constinit const ElementKind guided_spring_element = {
     .dual = guided_spring_law<Dual>,
     .side = guided_spring_side,
     .picture = guided_spring_picture,
-    .regimes = guided_spring_regimes,
-    .example = guided_spring_example};
+    .regimes = guided_spring_regimes};
+
+constinit const ExampleMaker guided_spring_examples = guided_spring_example;
 
 }  // namespace floatframe

@@ -80,8 +80,7 @@ ElementExample hysteresis_example(std::size_t, ExampleNumbers& numbers) {
 }  // namespace
 
 constinit const ElementKind hysteresis_element = [] {
-  auto kind =
-      block_kind<Hysteresis>("a relay with two thresholds", hysteresis_keys, hysteresis_example);
+  auto kind = block_kind<Hysteresis>("a relay with two thresholds", hysteresis_keys);
   kind.validate = validate_limits;
   kind.states = [](Element& element) { element.kept = 1; };
   kind.start = hysteresis_start;
@@ -90,5 +89,7 @@ constinit const ElementKind hysteresis_element = [] {
   kind.side = hysteresis_side;
   return kind;
 }();
+
+constinit const ExampleMaker hysteresis_examples = hysteresis_example;
 
 }  // namespace floatframe

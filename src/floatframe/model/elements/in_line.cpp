@@ -48,7 +48,8 @@ constinit const ElementKind in_line_element = {
     .on_line = true,
     .picture = picture_of_constraint,
     .strokes = in_line_strokes,
-    .regimes = constraint_regimes,
-    .example = in_line_example};
+    .regimes = constraint_regimes};
+
+constinit const ExampleMaker in_line_examples = in_line_example;
 
 }  // namespace floatframe

@@ -47,7 +47,8 @@ constinit const ElementKind in_plane_element = {
     .rows = in_plane_rows,
     .picture = picture_of_constraint,
     .strokes = in_plane_strokes,
-    .regimes = constraint_regimes,
-    .example = in_plane_example};
+    .regimes = constraint_regimes};
+
+constinit const ExampleMaker in_plane_examples = in_plane_example;
 
 }  // namespace floatframe

@@ -91,7 +91,7 @@ ElementExample integrator_example(std::size_t regime, ExampleNumbers& numbers) {
 constinit const ElementKind integrator_element = [] {
   auto kind = block_kind<LimitedIntegral>(
       "the integral of its input, which stops at its limits and leaves them at once",
-      integrator_keys, integrator_example);
+      integrator_keys);
   kind.validate = integrator_validate;
   kind.states = [](Element& element) { element.states = 1; };
   kind.start = [](const Ports& in, double* z) noexcept { *z = in.keys<LimitedIntegral>().initial; };
@@ -101,5 +101,7 @@ constinit const ElementKind integrator_element = [] {
   kind.regimes = limit_regimes;
   return kind;
 }();
+
+constinit const ExampleMaker integrator_examples = integrator_example;
 
 }  // namespace floatframe

@@ -111,7 +111,8 @@ constinit const ElementKind joint_spring_element = {
     .dual = joint_spring_law<Dual>,
     .side = joint_spring_side,
     .picture = picture_of_coordinate,
-    .regimes = joint_spring_regimes,
-    .example = joint_spring_example};
+    .regimes = joint_spring_regimes};
+
+constinit const ExampleMaker joint_spring_examples = joint_spring_example;
 
 }  // namespace floatframe

@@ -183,7 +183,8 @@ constinit const ElementKind joint_stop_element = {
     .dual = joint_stop_law<Dual>,
     .side = joint_stop_side,
     .picture = picture_of_coordinate,
-    .regimes = joint_stop_regimes,
-    .example = joint_stop_example};
+    .regimes = joint_stop_regimes};
+
+constinit const ExampleMaker joint_stop_examples = joint_stop_example;
 
 }  // namespace floatframe

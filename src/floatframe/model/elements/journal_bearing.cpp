@@ -303,7 +303,8 @@ constinit const ElementKind journal_bearing_element = {
     .side = journal_bearing_side,
     .picture = journal_bearing_picture,
     .note = journal_bearing_note,
-    .regimes = journal_bearing_regimes,
-    .example = journal_bearing_example};
+    .regimes = journal_bearing_regimes};
+
+constinit const ExampleMaker journal_bearing_examples = journal_bearing_example;
 
 }  // namespace floatframe

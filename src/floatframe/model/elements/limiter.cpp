@@ -44,8 +44,8 @@ ElementExample limiter_example(std::size_t regime, ExampleNumbers& numbers) {
 }  // namespace
 
 constinit const ElementKind limiter_element = [] {
-  auto kind = block_kind<Limiter>("its input, a sum of terms for example, within limits",
-                                  limiter_keys, limiter_example);
+  auto kind =
+      block_kind<Limiter>("its input, a sum of terms for example, within limits", limiter_keys);
   kind.validate = limiter_validate;
   kind.dual = limiter_law<Dual>;
   kind.side = [](const Ports& in) noexcept {
@@ -55,5 +55,7 @@ constinit const ElementKind limiter_element = [] {
   kind.regimes = limit_regimes;
   return kind;
 }();
+
+constinit const ExampleMaker limiter_examples = limiter_example;
 
 }  // namespace floatframe

@@ -142,12 +142,13 @@ constexpr ElementKind linear_tyre_kind() {
       "tyre with a vertical spring, slip stiffnesses, a limit of friction and relaxation lengths";
   kind.keys = linear_tyre_keys;
   kind.build = linear_tyre_build;
-  kind.example = linear_tyre_example;
   return kind;
 }
 
 }  // namespace
 
 constinit const ElementKind linear_tyre_element = linear_tyre_kind();
+
+constinit const ExampleMaker linear_tyre_examples = linear_tyre_example;
 
 }  // namespace floatframe

@@ -265,12 +265,13 @@ constexpr ElementKind magic_tyre_kind() {
   kind.keys = magic_tyre_keys;
   kind.build = magic_tyre_build;
   kind.note = magic_tyre_note;
-  kind.example = magic_tyre_example;
   return kind;
 }
 
 }  // namespace
 
 constinit const ElementKind magic_formula_tyre_element = magic_tyre_kind();
+
+constinit const ExampleMaker magic_formula_tyre_examples = magic_tyre_example;
 
 }  // namespace floatframe

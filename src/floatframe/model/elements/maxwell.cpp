@@ -92,7 +92,8 @@ constinit const ElementKind maxwell_element = {
     .along_line = true,
     .dual = maxwell_law<Dual>,
     .picture = picture_of_line,
-    .regimes = maxwell_regimes,
-    .example = maxwell_example};
+    .regimes = maxwell_regimes};
+
+constinit const ExampleMaker maxwell_examples = maxwell_example;
 
 }  // namespace floatframe

@@ -58,7 +58,8 @@ constinit const ElementKind mimic_element = {
     .validate = mimic_validate,
     .build = mimic_build,
     .rows = coupled_rows,
-    .regimes = holding_regimes,
-    .example = mimic_example};
+    .regimes = holding_regimes};
+
+constinit const ExampleMaker mimic_examples = mimic_example;
 
 }  // namespace floatframe

@@ -80,7 +80,8 @@ constinit const ElementKind motion_element = {
     .blank = [] { return ElementKeys(PrescribedMotion()); },
     .build = motion_build,
     .rows = motion_rows,
-    .regimes = motion_regimes,
-    .example = motion_example};
+    .regimes = motion_regimes};
+
+constinit const ExampleMaker motion_examples = motion_example;
 
 }  // namespace floatframe

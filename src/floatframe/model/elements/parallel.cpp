@@ -42,7 +42,8 @@ constinit const ElementKind parallel_element = {
     .build = parallel_build,
     .rows = parallel_rows,
     .picture = picture_of_constraint,
-    .regimes = constraint_regimes,
-    .example = parallel_example};
+    .regimes = constraint_regimes};
+
+constinit const ExampleMaker parallel_examples = parallel_example;
 
 }  // namespace floatframe

@@ -223,7 +223,7 @@ constinit const ElementKind path_follower_element = [] {
   auto kind = block_kind<PathFollowing>(
       "the road-wheel angle with which a vehicle follows a path [rad], positive to the left; its "
       "values are `angle` and `offset`",
-      path_follower_keys, path_follower_example);
+      path_follower_keys);
   kind.validate = path_follower_validate;
   kind.build = path_follower_build;
   kind.states = path_follower_states;
@@ -239,5 +239,7 @@ constinit const ElementKind path_follower_element = [] {
   kind.regimes = path_follower_regimes;
   return kind;
 }();
+
+constinit const ExampleMaker path_follower_examples = path_follower_example;
 
 }  // namespace floatframe

@@ -51,7 +51,8 @@ constinit const ElementKind perpendicular_element = {
     .build = perpendicular_build,
     .rows = perpendicular_rows,
     .picture = picture_of_constraint,
-    .regimes = constraint_regimes,
-    .example = perpendicular_example};
+    .regimes = constraint_regimes};
+
+constinit const ExampleMaker perpendicular_examples = perpendicular_example;
 
 }  // namespace floatframe

@@ -243,7 +243,8 @@ constinit const ElementKind pid_element = {
     .dual = pid_law<Dual>,
     .side = pid_side,
     .resting_branch = Limits::between,
-    .regimes = pid_regimes,
-    .example = pid_example};
+    .regimes = pid_regimes};
+
+constinit const ExampleMaker pid_examples = pid_example;
 
 }  // namespace floatframe

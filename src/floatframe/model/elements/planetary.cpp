@@ -106,7 +106,8 @@ constinit const ElementKind planetary_element = {
     .build = planetary_build,
     .rows = coupled_rows,
     .strokes = planetary_strokes,
-    .regimes = holding_regimes,
-    .example = planetary_example};
+    .regimes = holding_regimes};
+
+constinit const ExampleMaker planetary_examples = planetary_example;
 
 }  // namespace floatframe

@@ -76,7 +76,8 @@ constinit const ElementKind point_on_curve_element = {
     .mirror = point_on_curve_mirror,
     .picture = picture_of_constraint,
     .strokes = point_on_curve_strokes,
-    .regimes = constraint_regimes,
-    .example = point_on_curve_example};
+    .regimes = constraint_regimes};
+
+constinit const ExampleMaker point_on_curve_examples = point_on_curve_example;
 
 }  // namespace floatframe

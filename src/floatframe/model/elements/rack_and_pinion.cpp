@@ -74,7 +74,8 @@ constinit const ElementKind rack_and_pinion_element = {
     .build = rack_and_pinion_build,
     .rows = coupled_rows,
     .strokes = rack_and_pinion_strokes,
-    .regimes = holding_regimes,
-    .example = rack_and_pinion_example};
+    .regimes = holding_regimes};
+
+constinit const ExampleMaker rack_and_pinion_examples = rack_and_pinion_example;
 
 }  // namespace floatframe

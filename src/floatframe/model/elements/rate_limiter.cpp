@@ -65,8 +65,7 @@ ElementExample rate_limiter_example(std::size_t regime, ExampleNumbers& numbers)
 }  // namespace
 
 constinit const ElementKind rate_limiter_element = [] {
-  auto kind = block_kind<RateLimiter>("its input, with a limited rate", rate_limiter_keys,
-                                      rate_limiter_example);
+  auto kind = block_kind<RateLimiter>("its input, with a limited rate", rate_limiter_keys);
   kind.states = [](Element& element) { element.states = 1; };
   kind.start = [](const Ports& in, double* y) noexcept { *y = in.signal(0).f; };
   kind.dual = rate_limiter_law<Dual>;
@@ -77,5 +76,7 @@ constinit const ElementKind rate_limiter_element = [] {
   kind.regimes = limit_regimes;
   return kind;
 }();
+
+constinit const ExampleMaker rate_limiter_examples = rate_limiter_example;
 
 }  // namespace floatframe

@@ -84,7 +84,8 @@ constinit const ElementKind rod_element = {.about = "keeps the distance between 
                                            .build = rod_build,
                                            .rows = rod_rows,
                                            .picture = rod_picture,
-                                           .regimes = rod_regimes,
-                                           .example = rod_example};
+                                           .regimes = rod_regimes};
+
+constinit const ExampleMaker rod_examples = rod_example;
 
 }  // namespace floatframe

@@ -100,7 +100,8 @@ constinit const ElementKind screw_element = {
     .build = screw_build,
     .rows = coupled_rows,
     .strokes = screw_strokes,
-    .regimes = holding_regimes,
-    .example = screw_example};
+    .regimes = holding_regimes};
+
+constinit const ExampleMaker screw_examples = screw_example;
 
 }  // namespace floatframe

@@ -98,7 +98,8 @@ constinit const ElementKind slide_along_element = {
     .mirror = slide_along_mirror,
     .picture = picture_of_constraint,
     .strokes = slide_along_strokes,
-    .regimes = constraint_regimes,
-    .example = slide_along_example};
+    .regimes = constraint_regimes};
+
+constinit const ExampleMaker slide_along_examples = slide_along_example;
 
 }  // namespace floatframe

@@ -94,7 +94,7 @@ ElementExample speed_controller_example(std::size_t regime, ExampleNumbers& numb
 constinit const ElementKind speed_controller_element = [] {
   auto kind = block_kind<SpeedControl>(
       "the force that holds a vehicle at a speed [N], within limits and without wind-up",
-      speed_controller_keys, speed_controller_example);
+      speed_controller_keys);
   kind.validate = [](const ElementCheck& check) { validate_limits(check); };
   kind.states = [](Element& element) { element.states = 1; };
   kind.dual = speed_controller_law<Dual>;
@@ -103,5 +103,7 @@ constinit const ElementKind speed_controller_element = [] {
   kind.regimes = limit_regimes;
   return kind;
 }();
+
+constinit const ExampleMaker speed_controller_examples = speed_controller_example;
 
 }  // namespace floatframe

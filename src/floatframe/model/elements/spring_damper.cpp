@@ -112,7 +112,8 @@ constinit const ElementKind spring_damper_element = {
     .dual = spring_damper_law<Dual>,
     .side = spring_damper_side,
     .picture = picture_of_line,
-    .regimes = spring_damper_regimes,
-    .example = spring_damper_example};
+    .regimes = spring_damper_regimes};
+
+constinit const ExampleMaker spring_damper_examples = spring_damper_example;
 
 }  // namespace floatframe

@@ -120,8 +120,7 @@ ElementExample state_space_example(std::size_t regime, ExampleNumbers& numbers) 
 
 constinit const ElementKind state_space_element = [] {
   auto kind = block_kind<StateSpaceBlock>(
-      "a linear system with states, of several inputs and with several values", state_space_keys,
-      state_space_example);
+      "a linear system with states, of several inputs and with several values", state_space_keys);
   kind.validate = state_space_validate;
   kind.states = state_space_states;
   kind.values = state_space_values;
@@ -131,5 +130,7 @@ constinit const ElementKind state_space_element = [] {
   kind.regimes = sampled_regimes;
   return kind;
 }();
+
+constinit const ExampleMaker state_space_examples = state_space_example;
 
 }  // namespace floatframe

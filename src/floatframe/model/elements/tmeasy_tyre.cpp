@@ -299,12 +299,13 @@ constexpr ElementKind tmeasy_kind() {
   kind.keys = tmeasy_tyre_keys;
   kind.validate = tmeasy_validate;
   kind.build = tmeasy_build;
-  kind.example = tmeasy_example;
   return kind;
 }
 
 }  // namespace
 
 constinit const ElementKind tmeasy_tyre_element = tmeasy_kind();
+
+constinit const ExampleMaker tmeasy_tyre_examples = tmeasy_example;
 
 }  // namespace floatframe

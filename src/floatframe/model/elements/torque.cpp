@@ -45,7 +45,8 @@ constinit const ElementKind torque_element = {.about = "torque on a body",
                                               .build = torque_build,
                                               .dual = torque_law<Dual>,
                                               .picture = torque_picture,
-                                              .regimes = torque_regimes,
-                                              .example = torque_example};
+                                              .regimes = torque_regimes};
+
+constinit const ExampleMaker torque_examples = torque_example;
 
 }  // namespace floatframe

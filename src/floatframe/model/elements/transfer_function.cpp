@@ -105,7 +105,7 @@ ElementExample transfer_function_example(std::size_t regime, ExampleNumbers& num
 constinit const ElementKind transfer_function_element = [] {
   auto kind = block_kind<TransferFunction>(
       "a rational function of s, numerator over denominator, times its input",
-      transfer_function_keys, transfer_function_example);
+      transfer_function_keys);
   kind.validate = transfer_function_validate;
   kind.states = [](Element& element) {
     const auto& keys = *std::get_if<TransferFunction>(element.keys.get());
@@ -117,5 +117,7 @@ constinit const ElementKind transfer_function_element = [] {
   kind.regimes = sampled_regimes;
   return kind;
 }();
+
+constinit const ExampleMaker transfer_function_examples = transfer_function_example;
 
 }  // namespace floatframe

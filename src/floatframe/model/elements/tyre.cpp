@@ -294,7 +294,8 @@ constinit const ElementKind tyre_element = {
     .side = tyre_side,
     .picture = tyre_picture,
     .note = tyre_note,
-    .regimes = tyre_regimes,
-    .example = tyre_example};
+    .regimes = tyre_regimes};
+
+constinit const ExampleMaker tyre_examples = tyre_example;
 
 }  // namespace floatframe

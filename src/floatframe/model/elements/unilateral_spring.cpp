@@ -103,7 +103,8 @@ constinit const ElementKind unilateral_spring_element = {
     .dual = unilateral_spring_law<Dual>,
     .side = unilateral_spring_side,
     .picture = picture_of_line,
-    .regimes = unilateral_spring_regimes,
-    .example = unilateral_spring_example};
+    .regimes = unilateral_spring_regimes};
+
+constinit const ExampleMaker unilateral_spring_examples = unilateral_spring_example;
 
 }  // namespace floatframe

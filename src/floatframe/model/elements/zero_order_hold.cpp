@@ -39,7 +39,7 @@ ElementExample zero_order_hold_example(std::size_t, ExampleNumbers& numbers) {
 
 constinit const ElementKind zero_order_hold_element = [] {
   auto kind = block_kind<ZeroOrderHold>("its input, sampled at instants and held between them",
-                                        zero_order_hold_keys, zero_order_hold_example);
+                                        zero_order_hold_keys);
   kind.validate = validate_sampling;
   kind.states = [](Element& element) {
     take_clock(element, *std::get_if<ZeroOrderHold>(element.keys.get()));
@@ -51,5 +51,7 @@ constinit const ElementKind zero_order_hold_element = [] {
   kind.dual = zero_order_hold_law<Dual>;
   return kind;
 }();
+
+constinit const ExampleMaker zero_order_hold_examples = zero_order_hold_example;
 
 }  // namespace floatframe
