@@ -121,7 +121,7 @@ if(FLOATFRAME_FMU_WIN64 AND FLOATFRAME_MINGW)
   list(APPEND fmu_runtimes floatframe_fmu_win64)
 endif()
 
-# Whoever builds the program can export FMUs.
+# A program that was built can export FMUs.
 if(TARGET floatframe_program)
   add_dependencies(floatframe_program ${fmu_runtimes})
 endif()

@@ -4,10 +4,9 @@
 #include <filesystem>
 
 #include "floatframe/apps/commands.hpp"
+#include "floatframe/apps/packing.hpp"
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/core/text_pieces.hpp"
 #include "floatframe/fmu/fmu_file.hpp"
-#include "floatframe/model_file/keep_outputs.hpp"
 #include "floatframe/model_file/pack_model.hpp"
 
 namespace floatframe {
@@ -20,7 +19,7 @@ struct FmuArguments {
 };
 
 /// `fixed`: a sentence about each parameter that cannot change.
-PackedModel packed_of(const FmuArguments& a, std::vector<std::string>& fixed) {
+PackedModel model_of(const FmuArguments& a, std::vector<std::string>& fixed) {
   if (is_packed_file(a.model.path)) {
     if (!a.outputs.empty() || !a.model.settings.empty())
       throw InputError(ErrorCode::exclusive,
@@ -29,16 +28,7 @@ PackedModel packed_of(const FmuArguments& a, std::vector<std::string>& fixed) {
                                    a.model.path));
     return read_packed_model(a.model.path);
   }
-  const ModelSettings settings = settings_of(a.model);
-  ModelPacking packing;
-  packing.contents.contents = PackOptions::Contents::steps;
-  std::vector<std::string> names;
-  if (!a.outputs.empty()) names = pieces_of(a.outputs, ',');
-  packing.change = [&](ModelDescription& description) {
-    set_options(settings.options, description.simulation);
-    if (!names.empty()) keep_outputs(description, names);
-  };
-  return pack_model(a.model.path, settings.parameters, packing, &fixed);
+  return packed_of(a.model, a.outputs, PackOptions::Contents::steps, fixed);
 }
 
 int write(const FmuArguments& a) {
@@ -46,7 +36,7 @@ int write(const FmuArguments& a) {
       a.out.empty() ? std::filesystem::path(a.model.path).stem().string() + ".fmu" : a.out;
   require_writable({{"-o", out}}, {a.model.path}, a.overwrite);
   std::vector<std::string> fixed;
-  const PackedModel model = packed_of(a, fixed);
+  const PackedModel model = model_of(a, fixed);
   const FmuReport report = write_fmu(out, model, {a.version == "3" ? 3 : 2, fixed});
   std::string platforms;
   for (const std::string& p : report.platforms) platforms += (platforms.empty() ? "" : ", ") + p;

@@ -5,10 +5,9 @@
 #include <filesystem>
 
 #include "floatframe/apps/commands.hpp"
+#include "floatframe/apps/packing.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
-#include "floatframe/core/text_pieces.hpp"
-#include "floatframe/model_file/keep_outputs.hpp"
 #include "floatframe/model_file/pack_model.hpp"
 
 namespace floatframe {
@@ -20,19 +19,6 @@ struct PackArguments {
   bool small = false, overwrite = false, quiet = false;
 };
 
-PackedModel packed_model_of(const PackArguments& a, std::vector<std::string>& fixed) {
-  const ModelSettings settings = settings_of(a.model);
-  ModelPacking packing;
-  if (a.small) packing.contents.contents = PackOptions::Contents::steps;
-  std::vector<std::string> names;
-  if (!a.outputs.empty()) names = pieces_of(a.outputs, ',');
-  packing.change = [&](ModelDescription& description) {
-    set_options(settings.options, description.simulation);
-    if (!names.empty()) keep_outputs(description, names);
-  };
-  return pack_model(a.model.path, settings.parameters, packing, &fixed);
-}
-
 int pack_file(const PackArguments& a) {
   const std::string out =
       a.out.empty() ? std::filesystem::path(a.model.path).stem().string() + ".ffm" : a.out;
@@ -41,7 +27,8 @@ int pack_file(const PackArguments& a) {
     throw InputError(ErrorCode::wrong_file, {a.model.path, 0, 0},
                      "found a packed model, expected the model file that it was packed from");
   std::vector<std::string> fixed;
-  const PackedModel model = packed_model_of(a, fixed);
+  const auto contents = a.small ? PackOptions::Contents::steps : PackOptions::Contents::all;
+  const PackedModel model = packed_of(a.model, a.outputs, contents, fixed);
   const std::vector<std::byte> bytes = model.to_bytes();
   std::string content(bytes.size(), '\0');
   std::transform(bytes.begin(), bytes.end(), content.begin(),

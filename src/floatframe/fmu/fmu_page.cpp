@@ -102,8 +102,8 @@ constexpr std::string_view licence_html =
     "(MIT) "
     "and the runtime libraries of GCC (GPL-3.0 with the GCC Runtime Library Exception); for "
     "Windows also parts of MinGW-w64 (ZPL-2.1, MIT). The texts are in "
-    "<code>documentation/licenses/license.txt</code>. The model belongs to whoever exported "
-    "it.</p>\n";
+    "<code>documentation/licenses/license.txt</code>. The model belongs to its "
+    "exporter.</p>\n";
 
 }  // namespace
 

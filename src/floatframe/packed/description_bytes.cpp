@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "floatframe/core/content_hash.hpp"
+#include "floatframe/core/version.hpp"
 #include "floatframe/packed/pass_model.hpp"
 
 namespace floatframe {
@@ -120,6 +121,7 @@ namespace {
 
 std::uint64_t layout_of_keys() {
   ContentHash hash;
+  hash.add(std::string_view(FLOATFRAME_VERSION));
   for (const ElementType type : element_types) {
     hash.add(std::string_view(element_type_name(type)));
     for (const ElementKey& key : element_keys(type)) {

@@ -22,9 +22,6 @@ struct DescriptionBytes {
 /// Laws that a program gives as a function have no bytes: InputError. Frames of bars are written,
 /// so that two of them can be compared, but not read.
 DescriptionBytes description_bytes(const ModelDescription& description);
-/// To be compared only: without the texts of formulas, up to `bodies` with the same doubles in the
-/// same order.
-DescriptionBytes bytes_without_formula_texts(const ModelDescription& description);
 /// To be compared only: without the texts of formulas, with the same doubles in the same order.
 DescriptionBytes bytes_without_formula_texts(const ModelDescription& description);
 
@@ -33,7 +30,8 @@ DescriptionBytes bytes_without_formula_texts(const ModelDescription& description
 /// of code `damaged`.
 ModelDescription description_of(std::span<const std::byte> bytes);
 
-/// Differs where the order of the bytes does: a hash of the names of all keys of all elements.
+/// Differs where the order of the bytes does: a hash of the version and the names of all keys of all
+/// elements.
 std::uint64_t description_layout();
 
 }  // namespace floatframe
