@@ -144,7 +144,7 @@ Status enter(void* instance, Call call, const char* function, Body&& body) noexc
   } catch (const std::bad_alloc&) {
     return me.fail("no memory is left");
   } catch (...) {
-    return me.fail("an error that nobody expected");
+    return me.fail("an internal error");
   }
 }
 
