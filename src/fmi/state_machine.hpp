@@ -1,6 +1,7 @@
 #pragma once
-// The states of a co-simulation FMU and the calls that each of them allows, after the state machines
-// of FMI 2.0 and 3.0, for an FMU without event mode, structural parameters and asynchronous steps.
+// The states of a co-simulation FMU and the calls that each of them allows, after the state
+// machines of FMI 2.0 and 3.0, for an FMU without event mode, structural parameters and
+// asynchronous steps.
 //
 // A call that returns an error - one that is not allowed, too - ends the run, as both standards
 // say: FMI 2 calls the state after it "error", FMI 3 "terminated". Values can still be read, a

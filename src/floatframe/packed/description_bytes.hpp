@@ -30,8 +30,8 @@ DescriptionBytes bytes_without_formula_texts(const ModelDescription& description
 /// of code `damaged`.
 ModelDescription description_of(std::span<const std::byte> bytes);
 
-/// Differs where the order of the bytes does: a hash of the version and the names of all keys of all
-/// elements.
+/// Differs where the order of the bytes does: a hash of the version and of the names of all keys of
+/// all elements.
 std::uint64_t description_layout();
 
 }  // namespace floatframe
