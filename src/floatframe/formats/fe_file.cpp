@@ -7,6 +7,7 @@
 
 #include "floatframe/core/suggest.hpp"
 #include "floatframe/core/utf8_text.hpp"
+#include "floatframe/fe/springs.hpp"
 #include "floatframe/formats/deck_component.hpp"
 #include "floatframe/formats/equation_checks.hpp"
 #include "floatframe/formats/gmsh/read_gmsh.hpp"

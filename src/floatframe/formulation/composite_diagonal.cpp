@@ -1,7 +1,6 @@
 #include "floatframe/formulation/composite_diagonal.hpp"
 
 #include <cassert>
-#include <ranges>
 
 namespace floatframe {
 
@@ -10,7 +9,9 @@ VecX composite_diagonal(const TreeKinematics& tree,
   const std::size_t n = tree.bodies().size();
   std::vector<Mat6> composite(n, Mat6::Zero());
   VecX diagonal = VecX::Zero(tree.velocity_count());
-  for (const int i : tree.order() | std::views::reverse) {
+  const std::vector<int>& order = tree.order();
+  for (auto at = order.rbegin(); at != order.rend(); ++at) {
+    const int i = *at;
     const TreeBody& b = tree.body(i);
     const MatX& M = inertia(i);
     assert(M.rows() == 6 + b.nm && M.cols() == 6 + b.nm);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <ranges>
 
 #include "floatframe/math/partial_ldlt.hpp"
 #include "floatframe/math/small_products.hpp"
@@ -59,9 +58,9 @@ TreeElement make_element(const TreeKinematics& tree, const std::vector<Cluster>&
   TreeElement e;
   e.markers.assign(markers.begin(), markers.end());
   const auto [ancestor, paths] = paths_of(tree, markers);
-  int lead = ancestor;
-  for (const std::vector<int>& path : std::views::reverse(paths))
-    if (!path.empty()) lead = path.front();
+  const auto moves = [](const std::vector<int>& path) { return !path.empty(); };
+  const auto first = std::find_if(paths.begin(), paths.end(), moves);
+  const int lead = first == paths.end() ? ancestor : first->front();
   if (lead < 0) return e;
   // All markers on one body: the element depends on its modes only, in the front of its cluster.
   e.cluster = cluster_of_body[lead];

@@ -296,9 +296,10 @@ class ElementConnection final : public FormulaConnection {
     Element& e = element();
     const Joint& joint = b_.model.joints[out.joint];
     const std::array<int, 2> frames{joint.frame_F, joint.frame_M};
-    const auto known = std::ranges::search(e.markers, frames);
-    const int port = known.begin() - e.markers.begin();
-    if (known.empty()) e.markers.insert(e.markers.end(), frames.begin(), frames.end());
+    const auto known =
+        std::search(e.markers.begin(), e.markers.end(), frames.begin(), frames.end());
+    const int port = known - e.markers.begin();
+    if (known == e.markers.end()) e.markers.insert(e.markers.end(), frames.begin(), frames.end());
     x.ports = {port, port + 1, -1, -1};
     const auto axis = coordinate_axis(joint.type, joint.axis_2, out.component);
     if (!axis || !axis->turns) return;

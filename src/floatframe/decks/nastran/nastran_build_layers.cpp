@@ -4,6 +4,7 @@
 
 #include "floatframe/decks/nastran/nastran_build.hpp"
 #include "floatframe/fe/elasticity.hpp"
+#include "floatframe/fe/shell_layers.hpp"
 
 namespace floatframe {
 namespace {

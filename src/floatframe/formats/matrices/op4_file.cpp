@@ -211,7 +211,7 @@ class TextOp4 {
     if (!next()) fail(ErrorCode::damaged, "the file ends within a matrix");
     const auto [number, row, words] = integers<3>();
     const SourceMark at = at_;
-    const auto take = [&](int from, int count) {
+    const auto take = [&, number = number](int from, int count) {
       values();
       const int found = static_cast<int>(values_.size()) / (m.type > 2 ? 2 : 1);
       if (number <= m.columns && count != found)
