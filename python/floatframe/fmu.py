@@ -32,7 +32,8 @@ class FmuReport:
 
 def export_fmu(model: Model, file: str | os.PathLike[str], *, fmi: Literal[2, 3] = 2, outputs: Sequence[str] = ()) -> FmuReport:
     """Writes a model of a file, with the parameter values it was loaded with, as an FMU for co-simulation of FMI 2.0 or 3.0.
-    outputs: names of those to show, "chassis" for all of "chassis.x", ...; none: all. Raises InputError, OutputError.
+    outputs: names of those to show, "chassis" for all of "chassis.x", ...; none: all. A packed model is taken as it is, without
+    other values and without outputs. Raises InputError, OutputError.
 
     >>> ff.export_fmu(ff.Model.load("vehicle.yaml", speed=20), "vehicle.fmu", fmi=3)
     """

@@ -30,7 +30,9 @@ void bind_fmu(nb::module_& m) {
         FmuReport report;
         {
           Unlocked released;
-          const PackedModel packed = pack_file(file, settings, outputs, fixed);
+          const PackedModel packed = settings.empty() && outputs.empty() && is_packed_file(file)
+                                         ? read_packed_model(file)
+                                         : pack_file(file, settings, outputs, fixed);
           report = write_fmu(out, packed, {version, fixed});
         }
         std::vector<std::string> notes = report.notes;

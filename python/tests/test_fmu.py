@@ -83,6 +83,17 @@ def test_names_units_and_limits(write, version):
     assert float(description.defaultExperiment.stepSize) == 0.001
 
 
+def test_a_packed_model_keeps_its_parameters(write, tmp_path):
+    write(HOSTILE, 2)  # or this is skipped
+    model, packed = tmp_path / "model.yaml", tmp_path / "model.ffm"
+    model.write_text(HOSTILE, encoding="utf-8")
+    subprocess.run([ff.program(), "pack", str(model), "-o", str(packed), "--quiet"], capture_output=True, check=True)
+    report = ff.export_fmu(ff.Model.load(packed), tmp_path / "packed.fmu")
+    assert report.parameters == ff.export_fmu(ff.Model.load(model), tmp_path / "model.fmu").parameters == 2
+    with pytest.raises(ff.InputError, match="found a packed model"):
+        ff.export_fmu(ff.Model.load(packed, mass=3), tmp_path / "packed.fmu")
+
+
 def test_terminals_follow_the_schema(write):
     lxml = pytest.importorskip("lxml.etree")
     import pathlib

@@ -47,7 +47,7 @@ Status Instance::check_step(double at, double size) noexcept {
   if (std::fabs(at - time()) > 0.5 * h)
     return fail("found the communication point %.17g, expected the time %.17g", at, time());
   if (at + size > run_.stop + clock_tolerance * h + rounding(run_.stop))
-    return fail("found a step to %.17g s, expected none beyond the stop time %.17g s", at + size,
+    return fail("found a step to %.12g s, expected none beyond the stop time %.12g s", at + size,
                 run_.stop);
   return Status::ok;
 }

@@ -24,7 +24,7 @@
 namespace floatframe {
 
 std::vector<Option> model_options(ModelArguments& arguments) {
-  return {file_position("MODEL", arguments.path, "Model file (YAML)"),
+  return {file_position("MODEL", arguments.path, "Model file (YAML) or packed model (.ffm)"),
           repeated_option("--set", arguments.settings, "NAME=VALUE",
                           "Set a parameter of the model file, or else an option of its section "
                           "simulation (step, tolerance, ...); may be repeated")};

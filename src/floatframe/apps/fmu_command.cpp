@@ -75,7 +75,7 @@ Command fmu_command() {
               "build of the model are\nparameters of the FMU; notes say why others are not. "
               "docs/fmu.md explains all.\n"
               "Example: floatframe fmu examples/iltis/iltis.yaml -o vehicle.fmu --fmi 3\n"
-              "Exit codes: 0 done, 2 bad input; files are written atomically.",
+              "Exit codes: 0 done, 1 the disk is full, 2 bad input; files are written atomically.",
           .run = [a] { return write(*a); }};
 }
 

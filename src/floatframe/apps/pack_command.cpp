@@ -23,9 +23,6 @@ int pack_file(const PackArguments& a) {
   const std::string out =
       a.out.empty() ? std::filesystem::path(a.model.path).stem().string() + ".ffm" : a.out;
   require_writable({{"-o", out}}, {a.model.path}, a.overwrite);
-  if (is_packed_file(a.model.path))
-    throw InputError(ErrorCode::wrong_file, {a.model.path, 0, 0},
-                     "found a packed model, expected the model file that it was packed from");
   std::vector<std::string> fixed;
   const auto contents = a.small ? PackOptions::Contents::steps : PackOptions::Contents::all;
   const PackedModel model = packed_of(a.model, a.outputs, contents, fixed);
@@ -67,7 +64,7 @@ Command pack_command() {
               "notes say why others\nare not. docs/packed-model.md explains all.\n"
               "Example: floatframe pack examples/iltis/iltis.yaml -o iltis.ffm && floatframe run "
               "iltis.ffm\n"
-              "Exit codes: 0 done, 2 bad input; files are written atomically.",
+              "Exit codes: 0 done, 1 the disk is full, 2 bad input; files are written atomically.",
           .run = [a] { return pack_file(*a); }};
 }
 

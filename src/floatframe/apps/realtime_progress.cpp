@@ -43,7 +43,9 @@ void RealTimeProgress::report_silence() {
     say(fmt::format("no inputs have come since t = {:.6g} s; {}", since,
                     fallback_ == SilenceFallback::hold      ? "the last values are held"
                     : fallback_ == SilenceFallback::initial ? "the initial values are used"
-                                                            : "the run stops if any had come"));
+                                                            : "the run stops if some came before, "
+                                                              "else it goes on with the initial "
+                                                              "values"));
   else
     say(fmt::format("inputs arrive again at t = {:.6g} s", time.load(std::memory_order_relaxed)));
   shown_ = since;

@@ -223,7 +223,7 @@ Command sweep_command() {
       .name = "sweep",
       .help = "Run a model many times with different values; one row of results per run",
       .options =
-          {file_position("MODEL", a->model.path, "Model file (YAML)"),
+          {file_position("MODEL", a->model.path, "Model file (YAML) or packed model (.ffm)"),
            text_option(
                "--files-in", a->files_in, "DIR",
                "Where files are that the model names; default: the folder of the model file"),

@@ -35,6 +35,9 @@ std::string names_text(const PackedModel& model) {
 
 PackedModel pack_model(const std::string& path, const std::vector<ParameterOverride>& overrides,
                        const ModelPacking& packing, std::vector<std::string>* fixed) {
+  if (is_packed_file(path))
+    throw InputError(ErrorCode::wrong_file, {path, 0, 0},
+                     "found a packed model, expected the model file that it was packed from");
   ReadOptions options;
   options.parsed = std::make_shared<ParsedFiles>();
   const auto reader = [&](const std::vector<ParameterOverride>& values) {
