@@ -126,7 +126,7 @@ std::string fmu_page(const FmuContent& content, int version, const std::vector<s
   out += "<h2>Model</h2>\n" + html_table({}, facts);
   out += use_html(content, version);
   out += variables_html("Inputs",
-                        "Values outside of min and max are refused, if nothing else is "
+                        "Values outside of min and max are discarded, if nothing else is "
                         "said; the last value stays.",
                         content.inputs);
   out += variables_html("Outputs", "Of the last instant that was reached.", content.outputs);
