@@ -56,9 +56,9 @@ std::string variables_html(const std::string& title, const std::string& about,
     PageRow row{code_html(v.name), html_escape(v.unit)};
     if (starts) row.push_back(number_text(v.start));
     if (limits) row.insert(row.end(), {number_text(v.low), number_text(v.high)});
-    const std::string what =
-        v.fixed ? "holds for a whole run" + std::string(v.about.empty() ? "" : "; ") + v.about
-                : v.about;
+    const std::string what = v.fixed ? "to be set before the end of initialisation" +
+                                           std::string(v.about.empty() ? "" : "; ") + v.about
+                                     : v.about;
     row.insert(row.end(), {fmt::format("{}", v.reference), html_escape(what)});
     rows.push_back(std::move(row));
   }
