@@ -1,5 +1,6 @@
 #include "fmi/instance.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstring>
@@ -104,7 +105,7 @@ Instance::Instance(const InstanceOptions& options, floatframe_simulation* simula
   for (std::int32_t k = 0; k < f_.parameter_count(simulation_); ++k)
     first_parameters_.push_back(f_.parameter(simulation_, k));
   indices_.reserve(first_parameters_.size());
-  numbers_.reserve(first_parameters_.size());
+  numbers_.reserve(std::max(first_parameters_.size(), first_inputs_.size()));
 }
 
 Instance::~Instance() { f_.close(simulation_); }

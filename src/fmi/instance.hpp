@@ -101,6 +101,9 @@ class Instance {
   Variable variable(std::uint32_t reference) const noexcept;
   double value(Variable variable) const noexcept;
   double figure(Figure figure) const noexcept;
+  Status set_parameters(const std::uint32_t* references, std::size_t count, const double* values);
+  Status set_inputs(const std::uint32_t* references, std::size_t count, const double* values,
+                    Status status);
   /// After a call of the simulation, the message of which it says.
   Status worse(Status status, floatframe_status found) noexcept;
   /// The start with the present inputs and parameters, if these have changed since the last one.
@@ -124,7 +127,7 @@ class Instance {
   bool early_return_;
   std::vector<double> first_inputs_, first_parameters_;
   std::vector<std::int32_t> indices_;  // of the parameters in one call, and their values
-  std::vector<double> numbers_;
+  std::vector<double> numbers_;        // or inputs before the call
   std::vector<std::unique_ptr<SavedState>> states_;
 
   const char* function_ = "";  // the call of now

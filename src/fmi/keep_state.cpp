@@ -45,15 +45,19 @@ Status Instance::set_state(void* state) {
 Status Instance::apply(const SavedState& state) {
   if (state.run.needs_start) {
     unstart();
-    for (std::size_t k = 0; k < state.inputs.size(); ++k)
-      if (f_.set_input(simulation_, std::int32_t(k), state.inputs[k]) > FLOATFRAME_WARNING)
-        return fail("%s", f_.message(simulation_));
     indices_.clear();
     for (std::size_t k = 0; k < state.parameters.size(); ++k) indices_.push_back(std::int32_t(k));
     if (!indices_.empty() &&
         f_.set_parameters(simulation_, indices_.data(), state.parameters.data(), indices_.size()) >
             FLOATFRAME_WARNING)
       return fail("%s", f_.message(simulation_));
+    // Then inputs, whose limits and first values may follow from parameters.
+    for (std::size_t k = 0; k < state.inputs.size(); ++k) {
+      const std::int32_t index = std::int32_t(k);
+      if (f_.input(simulation_, index) != state.inputs[k] &&
+          f_.set_input(simulation_, index, state.inputs[k]) > FLOATFRAME_WARNING)
+        return fail("%s", f_.message(simulation_));
+    }
   } else if (f_.restore(simulation_, state.model.data(), state.model.size()) != FLOATFRAME_OK) {
     return fail("%s", f_.message(simulation_));
   }

@@ -100,26 +100,49 @@ Status Instance::set(const std::uint32_t* references, std::size_t count, const d
       return fail("found value reference %u, expected that of an input or of a parameter",
                   unsigned(references[k]));
   }
-  Status status = Status::ok;
+  const Status status = set_parameters(references, count, values);
+  return status == Status::error ? status : set_inputs(references, count, values, status);
+}
+
+/// First: limits of inputs may follow from them.
+Status Instance::set_parameters(const std::uint32_t* references, std::size_t count,
+                                const double* values) {
   indices_.clear();
   numbers_.clear();
   for (std::size_t k = 0; k < count; ++k) {
     const Variable found = variable(references[k]);
-    if (found.kind == Kind::parameter) {
-      indices_.push_back(found.index);
-      numbers_.push_back(values[k]);
-      continue;
+    if (found.kind != Kind::parameter) continue;
+    indices_.push_back(found.index);
+    numbers_.push_back(values[k]);
+  }
+  if (indices_.empty()) return Status::ok;
+  // Before the first step they are part of a start, not a change of the model that moves.
+  if (state_ != State::stepping) unstart();
+  return worse(Status::ok,
+               f_.set_parameters(simulation_, indices_.data(), numbers_.data(), indices_.size()));
+}
+
+/// A value outside of the limits is discarded, with all others of the call: nothing has changed.
+/// Beside parameters, which are set by then, it is an error.
+Status Instance::set_inputs(const std::uint32_t* references, std::size_t count,
+                            const double* values, Status status) {
+  const bool alone = indices_.empty();
+  if (alone) numbers_.clear();  // the values before
+  for (std::size_t k = 0; k < count; ++k) {
+    const Variable found = variable(references[k]);
+    if (found.kind == Kind::parameter) continue;
+    if (alone) numbers_.push_back(f_.input(simulation_, found.index));
+    const floatframe_status answer = f_.set_input(simulation_, found.index, values[k]);
+    if (answer == FLOATFRAME_INVALID && alone && std::isfinite(values[k])) {
+      log_.write(Status::discard, Category::warning, "%s: %s", function_, f_.message(simulation_));
+      for (std::size_t j = k; j-- > 0;)
+        f_.set_input(simulation_, variable(references[j]).index, numbers_[j]);
+      return Status::discard;
     }
-    status = worse(status, f_.set_input(simulation_, found.index, values[k]));
+    status = worse(status, answer);
     if (status == Status::error) return status;
   }
-  if (!indices_.empty()) {
-    // Before the first step they are part of a start, not a change of the model that moves.
-    if (state_ != State::stepping) unstart();
-    status = worse(
-        status, f_.set_parameters(simulation_, indices_.data(), numbers_.data(), indices_.size()));
-  }
-  if (status != Status::error && state_ != State::stepping) run_.needs_start = true;
+  if (state_ != State::stepping) run_.needs_start = true;
   return status;
 }
 

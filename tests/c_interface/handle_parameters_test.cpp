@@ -104,6 +104,47 @@ TEST_F(HandleParameters, ThatHoldForAWholeRun) {
   EXPECT_TRUE(equal_bits(steps(s.get(), 0, 20), steps(expected, 0, 20)));
 }
 
+TEST_F(HandleParameters, InputsAndTheStepFollow) {
+  std::string text = tunable_machine();
+  for (const auto& [from, to] : {std::pair{"max: 50}", "max: \"${25 * load}\"}"},
+                                 std::pair{"initial: 0.1", "initial: \"${0.05 * load}\""},
+                                 std::pair{"step: 2.0e-3", "step: \"${0.001 * load}\""}}) {
+    const std::string old = from;
+    ASSERT_NE(text.find(old), std::string::npos);
+    text.replace(text.find(old), old.size(), to);
+  }
+  const std::string path = folder_.write("limited.yaml", text);
+  const std::vector<std::byte> bytes = pack_model(path).to_bytes();
+  char message[1000];
+  const auto fresh = [&] {
+    return Handle(floatframe_open_memory(bytes.data(), bytes.size(), message, sizeof message));
+  };
+  const Handle s = fresh();
+  ASSERT_TRUE(s != nullptr) << message;
+  const int load = floatframe_find_parameter(s.get(), "load");
+  ASSERT_GE(load, 0);
+  EXPECT_EQ(floatframe_set_input(s.get(), 0, 90.0), FLOATFRAME_INVALID);
+  ASSERT_EQ(floatframe_set_parameter(s.get(), load, 4.0), FLOATFRAME_OK);
+  EXPECT_EQ(floatframe_input_high(s.get(), 0), 100.0);
+  EXPECT_EQ(floatframe_step_size(s.get()), 0.004);
+  EXPECT_EQ(floatframe_input(s.get(), 1), 0.2) << "as the model says, until it is set";
+  EXPECT_EQ(floatframe_set_input(s.get(), 0, 90.0), FLOATFRAME_OK) << floatframe_message(s.get());
+  ASSERT_EQ(floatframe_start(s.get()), FLOATFRAME_OK) << floatframe_message(s.get());
+  EXPECT_EQ(floatframe_input(s.get(), 1), 0.2);
+  ASSERT_EQ(floatframe_step(s.get()), FLOATFRAME_OK);
+  const std::vector<std::byte> state = saved(s.get());
+
+  const Handle other = fresh();
+  ASSERT_EQ(restore(other.get(), state), FLOATFRAME_OK) << floatframe_message(other.get());
+  EXPECT_EQ(floatframe_input_high(other.get(), 0), 100.0) << "of the state's parameters";
+  EXPECT_EQ(floatframe_set_input(other.get(), 0, 95.0), FLOATFRAME_OK);
+
+  const Handle set = fresh();
+  ASSERT_EQ(floatframe_set_input(set.get(), 1, 0.3), FLOATFRAME_OK);
+  ASSERT_EQ(floatframe_set_parameter(set.get(), load, 4.0), FLOATFRAME_OK);
+  EXPECT_EQ(floatframe_input(set.get(), 1), 0.3) << "what was set stays";
+}
+
 TEST_F(HandleParameters, AreInSavedStates) {
   const Handle s = packed();
   const int stiff = floatframe_find_parameter(s.get(), "stiff");

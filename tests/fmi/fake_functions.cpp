@@ -95,6 +95,8 @@ floatframe_status step_fake_by(Fake* s, double h) noexcept {
 floatframe_status set_fake_input(Fake* s, std::int32_t k, double value) noexcept {
   if (k < 0 || k > 1 || !std::isfinite(value))
     return s->say(FLOATFRAME_INVALID, "found no number, expected one");
+  if (k == 1 && std::fabs(value) > 1000.0)
+    return s->say(FLOATFRAME_INVALID, "found too much, expected -1000 to 1000");
   s->state.inputs[unsigned(k)] = k == 0 ? std::clamp(value, -100.0, 100.0) : value;
   return s->state.inputs[unsigned(k)] == value ? FLOATFRAME_OK
                                                : s->say(FLOATFRAME_WARNING, "force: clamped");

@@ -170,13 +170,15 @@ class CallSequence {
   void set() {
     static constexpr std::uint32_t all[] = {input0,  input0 + 1, parameter0, parameter0 + 1,
                                             output0, 0,          input0 + 2};
-    static constexpr double values[] = {5.0, 200.0, 666.0, nan};
-    const unsigned which = below(7), v = below(4);
+    static constexpr double values[] = {5.0, 200.0, 666.0, nan, 5000.0};
+    const unsigned which = below(7), v = below(5);
+    const bool outside = which == 1 && v == 4;
     const bool null = below(10) == 0;
     const bool right = in("INS") && !null && which < 4 && v != 3;
-    const int good = which == 0 && v != 0 ? warning : ok;  // clamped
+    const int good = outside ? discard : which == 0 && v != 0 ? warning : ok;  // clamped
     if (!judge("set", Fmi::set(c_, &all[which], 1, null ? nullptr : &values[v]), right, good))
       return;
+    if (outside) return;
     if (now_.state != 'S') now_.started = false;
     if (which == 1) now_.no_start = v == 2;
   }

@@ -164,6 +164,19 @@ TYPED_TEST(FmiStep, WhatHoldsForAWholeRunIsSetInInitialization) {
   TypeParam::free(c);
 }
 
+TYPED_TEST(FmiStep, AnInputOutsideOfItsLimitsIsDiscardedWithAllOfItsCall) {
+  Ready<TypeParam> ready;
+  const std::uint32_t references[3] = {input0, input0 + 1, parameter0};
+  const double good[2] = {20.0, 3.0}, outside[3] = {30.0, 1001.0, 50.0};
+  ASSERT_EQ(TypeParam::set(ready.c, references, 2, good), ok);
+  EXPECT_EQ(TypeParam::set(ready.c, references, 2, outside), discard);
+  EXPECT_TRUE(ready.heard.has("expected -1000 to 1000"));
+  EXPECT_EQ(ready.get(input0), 20.0);
+  EXPECT_EQ(ready.get(input0 + 1), 3.0);
+  EXPECT_EQ(TypeParam::step(ready.c, 0.0, 0.1), ok) << "the run goes on";
+  EXPECT_EQ(TypeParam::set(ready.c, references, 3, outside), error) << "the parameter is set";
+}
+
 TYPED_TEST(FmiStep, OverrunsAreCountedAndSaid) {
   Ready<TypeParam> slow;
   slow_down_fakes(0.012);

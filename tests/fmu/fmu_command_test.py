@@ -18,16 +18,16 @@ RUNTIME = pathlib.Path(BINARY).resolve().parent / "lib" / "fmu" / "linux64" / "f
 PACED = """\
 floatframe: 1
 name: paced
-parameters: {pace: 0.01, stiffness: 300}
+parameters: {pace: 0.01, stiffness: 300, pull: 0.1, span: 0.1}
 bodies:
   block: {rigid: {mass: 2, centre_of_mass: [0, 0, 0], inertia: [1, 1, 1]}}
 joints:
-  slide: {type: prismatic, child: block, at: [0, 0, 0], axis: x, position: 0.1}
+  slide: {type: prismatic, child: block, at: [0, 0, 0], axis: x, position: "${pull}"}
 forces:
   coil: {type: joint_spring, joint: slide, spring: "${stiffness}"}
 outputs:
   x: {joint_position: slide}
-simulation: {step: "${pace}", duration: 0.1}
+simulation: {step: "${pace}", duration: "${span}"}
 """
 
 
@@ -80,7 +80,7 @@ class FmuCommand(unittest.TestCase):
         names = [v.get("name") for v in root.iter("ScalarVariable") if v.get("causality") == "output"]
         self.assertEqual(names, ["tyre", "travel"])
 
-    def test_a_parameter_of_the_step_is_fixed(self):
+    def test_parameters_of_the_step_and_of_the_start_are_fixed(self):
         model = self.folder / "paced.yaml"
         model.write_text(PACED)
         out = self.folder / "paced.fmu"
@@ -88,7 +88,7 @@ class FmuCommand(unittest.TestCase):
         with zipfile.ZipFile(out) as archive:
             root = ElementTree.fromstring(archive.read("modelDescription.xml"))
         found = {v.get("name"): v.get("variability") for v in root.iter("ScalarVariable") if v.get("causality") == "parameter"}
-        self.assertEqual(found, {"pace": "fixed", "stiffness": "tunable"})
+        self.assertEqual(found, {"pace": "fixed", "stiffness": "tunable", "pull": "fixed", "span": "fixed"})
 
     def test_a_packed_model_gives_the_same_file(self):
         packed = self.folder / "car.ffm"

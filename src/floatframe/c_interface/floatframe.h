@@ -205,7 +205,8 @@ FLOATFRAME_API int32_t floatframe_find_parameter(const floatframe_simulation*,
 FLOATFRAME_API double floatframe_parameter(const floatframe_simulation*,
                                            int32_t index) FLOATFRAME_NOEXCEPT;
 /** Sets a parameter. Before the start, or followed by a new one, the start is found with it, and
- * says if the value is no good. Otherwise it acts from the next step on: the call builds the model
+ * says if the value is no good; limits of inputs, initial values of those that were not set and the
+ * step follow before the start. Otherwise it acts from the next step on: the call builds the model
  * again, and allocates. FLOATFRAME_INVALID for one that holds for a whole run, as the step:
  * floatframe_reset comes before it. */
 FLOATFRAME_API floatframe_status floatframe_set_parameter(floatframe_simulation*, int32_t index,

@@ -110,11 +110,18 @@ floatframe_status SimulationHandle::restore(std::span<const std::byte> bytes) {
   } else {
     simulation_->restore(state);
   }
+  std::optional<Model> next;  // to judge inputs by
+  std::vector<std::string> expected;
+  if (stale_ || saved.running != parameters_) {
+    next = built(saved.running);
+    expected = expectations(*next);
+  }
   // Nothing throws from here on.
   if (other) notes_ = std::move(notes);
   take(other ? std::move(other) : std::move(simulation_), std::move(saved.start));
   std::ranges::copy(simulation_->inputs(), inputs_.begin());
-  stale_ = stale_ || saved.running != parameters_;
+  given_.assign(inputs_.size(), true);
+  if (next) adopt(std::move(*next), std::move(expected));
   parameters_ = saved.running;
   running_ = std::move(saved.running);
   return FLOATFRAME_OK;

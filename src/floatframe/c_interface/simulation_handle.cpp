@@ -61,16 +61,28 @@ SimulationHandle::SimulationHandle(OpenedModel opened)
   }
   for (const Input& input : opened.model.inputs) initial_.push_back(input.initial);
   inputs_ = initial_;
+  given_.assign(inputs_.size(), false);
   outputs_.assign(opened.model.outputs.size(), std::numeric_limits<double>::quiet_NaN());
-  adopt(std::move(opened.model));
+  std::vector<std::string> expected = expectations(opened.model);
+  adopt(std::move(opened.model), std::move(expected));
 }
 
-void SimulationHandle::adopt(Model&& model) {
+std::vector<std::string> SimulationHandle::expectations(const Model& model) {
   std::vector<std::string> expected;
   for (const Input& input : model.inputs) expected.push_back(input_expectation(input));
+  return expected;
+}
+
+void SimulationHandle::adopt(Model&& model, std::vector<std::string>&& expected) noexcept {
   expected_inputs_ = std::move(expected);
   model_ = std::move(model);
   stale_ = false;
+  if (!simulation_) follow_model(inputs_);
+}
+
+void SimulationHandle::follow_model(std::vector<double>& inputs) const noexcept {
+  for (std::size_t k = 0; k < inputs.size(); ++k)
+    if (!given_[k]) inputs[k] = model_.inputs[k].initial;
 }
 
 Model SimulationHandle::built(const std::vector<double>& parameters) const {
@@ -106,12 +118,19 @@ void SimulationHandle::take(std::unique_ptr<Simulation> simulation, StartValues 
 }
 
 floatframe_status SimulationHandle::start() {
-  if (stale_) adopt(built(parameters_));
-  std::unique_ptr<Simulation> simulation = begun(model_, inputs_);
-  StartValues from{inputs_, parameters_};
+  if (stale_) {
+    Model model = built(parameters_);
+    std::vector<std::string> expected = expectations(model);
+    adopt(std::move(model), std::move(expected));
+  }
+  std::vector<double> inputs = inputs_;
+  follow_model(inputs);
+  std::unique_ptr<Simulation> simulation = begun(model_, inputs);
+  StartValues from{inputs, parameters_};
   std::vector<double> running = parameters_;
   std::vector<std::string> notes = simulation->start_report().notes;
   take(std::move(simulation), std::move(from));
+  inputs_ = std::move(inputs);
   running_ = std::move(running);
   notes_ = std::move(notes);
   return FLOATFRAME_OK;
@@ -180,10 +199,29 @@ floatframe_status SimulationHandle::set_input(std::int32_t index, double value) 
   }
   if (simulation_) simulation_->set_input(index, *accepted);
   inputs_[index] = *accepted;
+  given_[index] = true;
   if (*accepted == value) return FLOATFRAME_OK;
   message.format("input '{}': found {:g}, expected {}; {:g} is taken", input.name, value,
                  expected_inputs_[index], *accepted);
   return FLOATFRAME_WARNING;
+}
+
+/// False: the next start takes these parameters, and says if they give no model. Before the start
+/// limits of inputs, their initial values and the step follow the parameters at once.
+bool SimulationHandle::step_with(const std::vector<double>& parameters) {
+  if (failed_) return false;
+  try {
+    Model changed = built(parameters);
+    std::vector<std::string> expected = expectations(changed);
+    std::vector<double> running = parameters;
+    if (simulation_) simulation_->change_model(changed);
+    adopt(std::move(changed), std::move(expected));
+    running_ = std::move(running);
+    return true;
+  } catch (const InputError&) {
+    if (simulation_) throw;
+    return false;
+  }
 }
 
 floatframe_status SimulationHandle::set_parameters(std::span<const std::int32_t> indices,
@@ -205,15 +243,7 @@ floatframe_status SimulationHandle::set_parameters(std::span<const std::int32_t>
     wanted[indices[k]] = values[k];
   }
   if (wanted == parameters_) return FLOATFRAME_OK;
-  if (simulation_ && !failed_) {
-    Model changed = built(wanted);
-    std::vector<double> running = wanted;
-    simulation_->change_model(changed);
-    adopt(std::move(changed));
-    running_ = std::move(running);
-  } else {
-    stale_ = true;
-  }
+  stale_ = !step_with(wanted);
   parameters_ = std::move(wanted);
   return FLOATFRAME_OK;
 }

@@ -69,7 +69,10 @@ class SimulationHandle {
  private:
   struct Saved;
   Model built(const std::vector<double>& parameters) const;
-  void adopt(Model&& model);
+  static std::vector<std::string> expectations(const Model& model);
+  void adopt(Model&& model, std::vector<std::string>&& expected) noexcept;
+  void follow_model(std::vector<double>& inputs) const noexcept;
+  bool step_with(const std::vector<double>& parameters);
   std::unique_ptr<Simulation> begun(Model& model, const std::vector<double>& inputs) const;
   void take(std::unique_ptr<Simulation> simulation, StartValues from) noexcept;
   floatframe_status end_of_step(const StepReport& report);
@@ -85,6 +88,7 @@ class SimulationHandle {
   NamedColumns input_columns_, output_columns_, parameter_columns_;
   std::vector<std::string> expected_inputs_;  ///< "a number from 0 to 5 [N]"
   std::vector<double> initial_, inputs_, outputs_;
+  std::vector<bool> given_;         ///< inputs that were set; others begin as the model says
   std::vector<double> parameters_;  ///< as set
   std::vector<double> running_;     ///< those that the simulation steps with
   StartValues start_;               ///< of the simulation

@@ -31,7 +31,7 @@ struct FmuVariable {
   std::uint32_t reference = 0;
   std::optional<double> start{};
   std::optional<double> low{}, high{};  ///< limits
-  bool fixed = false;                   ///< a parameter that holds for a whole run
+  bool fixed = false;                   ///< a parameter that is set before steps only
 };
 
 struct FmuContent {

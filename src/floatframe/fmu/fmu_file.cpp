@@ -13,6 +13,7 @@
 #include "floatframe/fmu/fmu_page.hpp"
 #include "floatframe/fmu/model_description.hpp"
 #include "floatframe/formats/body_file/zip_store.hpp"
+#include "floatframe/model/model_hash.hpp"
 #include "floatframe/stepping/same_structure.hpp"
 
 namespace floatframe {
@@ -50,22 +51,26 @@ class FmuMembers {
   std::vector<std::pair<std::string, std::string>> held_;
 };
 
-/// Whether an option that holds for a whole run, as the step, follows from a parameter: found by
-/// other values of it.
-bool holds_for_a_run(const PackedModel& packed, std::size_t parameter,
-                     const SimulationDescription& present) {
+/// Whether a parameter has no effect after the start, or is refused there: start values or an
+/// option that holds for a whole run, as the step, follow from it. Found by other values of it.
+bool is_fixed(const PackedModel& packed, std::size_t parameter, const Model& present) {
   std::vector<double> values;
   for (const PackedParameter& p : packed.parameters()) values.push_back(p.value);
   const double value = values[parameter];
+  const std::string hash = model_hash(present);  // without start values
+  bool same = true, built = false;
   for (const double other : {1.01 * value + 1e-6, 10.0 * value, 0.0}) {
     values[parameter] = other;
     try {
-      if (!option_complaint(present, packed.description(values).simulation).empty()) return true;
+      const Model changed = packed.build(values);
+      if (!option_complaint(present.simulation, changed.simulation).empty()) return true;
+      same = same && model_hash(changed) == hash;
+      built = true;
     } catch (const InputError&) {
       continue;  // no value of it
     }
   }
-  return false;
+  return same && built;
 }
 
 std::string text_of(const std::vector<std::byte>& bytes) {
@@ -95,10 +100,10 @@ std::string fmu_archive(const PackedModel& packed, const std::vector<FmuBinary>&
     throw InputError(ErrorCode::wrong_value,
                      fmt::format("version of FMI: found {}, expected 2 or 3", options.version));
   const bool third = options.version == 3;
-  FmuContent content = fmu_content(packed.build(), packed.parameters(), packed.fingerprint());
-  const SimulationDescription present = packed.description().simulation;
+  const Model present = packed.build();
+  FmuContent content = fmu_content(present, packed.parameters(), packed.fingerprint());
   for (std::size_t i = 0; i < content.parameters.size(); ++i)
-    content.parameters[i].fixed = holds_for_a_run(packed, i, present);
+    content.parameters[i].fixed = is_fixed(packed, i, present);
   // The runtime finds a variable by the lower half of its reference.
   constexpr std::size_t most = 0x10000;
   for (const std::vector<FmuVariable>* list :

@@ -56,9 +56,9 @@ std::string variables_html(const std::string& title, const std::string& about,
     PageRow row{code_html(v.name), html_escape(v.unit)};
     if (starts) row.push_back(number_text(v.start));
     if (limits) row.insert(row.end(), {number_text(v.low), number_text(v.high)});
-    const std::string what =
-        v.fixed ? "holds for a whole run" + std::string(v.about.empty() ? "" : "; ") + v.about
-                : v.about;
+    const std::string what = v.fixed ? "to be set before the end of initialisation" +
+                                           std::string(v.about.empty() ? "" : "; ") + v.about
+                                     : v.about;
     row.insert(row.end(), {fmt::format("{}", v.reference), html_escape(what)});
     rows.push_back(std::move(row));
   }
@@ -126,7 +126,7 @@ std::string fmu_page(const FmuContent& content, int version, const std::vector<s
   out += "<h2>Model</h2>\n" + html_table({}, facts);
   out += use_html(content, version);
   out += variables_html("Inputs",
-                        "Values outside of min and max are refused, if nothing else is "
+                        "Values outside of min and max are discarded, if nothing else is "
                         "said; the last value stays.",
                         content.inputs);
   out += variables_html("Outputs", "Of the last instant that was reached.", content.outputs);
