@@ -10,6 +10,7 @@
 
 namespace floatframe {
 
+struct ElementDescription;
 struct ModelInstance;
 
 /// Sets the keys A, B, C, D and `outputs`, which exclude the file, from the file named by the
