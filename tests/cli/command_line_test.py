@@ -6,6 +6,7 @@ import json
 import os
 import pathlib
 import pty
+import re
 import subprocess
 import sys
 import tempfile
@@ -123,8 +124,8 @@ class Help(CommandLine):
         """This command and all below it, as their help lists them."""
         done = self.expect(0, *command, "--help", out="Usage: " + " ".join(("floatframe", *command)))
         self.assertEqual(done.stderr, "")
-        listed = done.stdout.partition("Subcommands:\n")[2].partition("\n\n")[0]
-        return [command] + [found for line in listed.splitlines() for found in self.commands(*command, line.split()[0])]
+        listed = re.findall(r"^  ([a-z]+)  ", done.stdout, re.MULTILINE)
+        return [command] + [found for name in listed for found in self.commands(*command, name)]
 
     def test_every_command_explains_itself(self):
         found = self.commands()
@@ -143,8 +144,7 @@ class Help(CommandLine):
 class Misuse(CommandLine):
     def test_bad_options_exit_2_with_one_line(self):
         for arguments, message in (
-                ((), "a command is required: run, check, statics, advise, mass, modes, linearize, campbell, response, realtime, sweep, reduce, info, convert, compare, validate, outputs, export, stress, rainflow, vehicle, pack, fmu or bench"),
-                (("fly",), "found the command 'fly', expected run, check, statics, advise, mass, modes, linearize, campbell, response, realtime, sweep, reduce, info, convert, compare, validate, outputs, export, stress, rainflow, vehicle, pack, fmu or bench"),
+                (("fly",), "found the command 'fly', expected run, realtime, sweep, vehicle, check, statics, advise, mass, modes, linearize, campbell, response, compare, outputs, stress, rainflow, export, reduce, info, convert, pack, fmu, validate or bench"),
                 (("run",), "MODEL is required"),
                 (("run", ""), "MODEL: found an empty name, expected a file"),
                 (("sweep", "", "--vary", "a=1,2"), "MODEL: found an empty name, expected a file"),

@@ -84,7 +84,8 @@ class FmuCommand(unittest.TestCase):
         model = self.folder / "paced.yaml"
         model.write_text(PACED)
         out = self.folder / "paced.fmu"
-        self.assertEqual(program("fmu", model, "-o", out, "--quiet").returncode, 0)
+        done = program("fmu", model, "-o", out, "--quiet")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
         with zipfile.ZipFile(out) as archive:
             root = ElementTree.fromstring(archive.read("modelDescription.xml"))
         found = {v.get("name"): v.get("variability") for v in root.iter("ScalarVariable") if v.get("causality") == "parameter"}

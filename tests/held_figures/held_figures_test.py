@@ -182,6 +182,28 @@ def cost_of_reactions(program, with_outputs, kinds):
     return steps["with"] / steps["without"]
 
 
+def cost_of_page(program, model, durations):
+    """Instructions of writing the page of a run, of those of the run: a run less a shorter one, so without what a page and a
+    start cost whatever the run is."""
+    counts = {}
+    with tempfile.TemporaryDirectory(prefix="floatframe-count-") as folder:
+        if not isinstance(model, pathlib.Path):
+            (pathlib.Path(folder) / "model.yaml").write_text(model, encoding="utf-8")
+            model = pathlib.Path(folder) / "model.yaml"
+        for page in (False, True):
+            for duration in durations:
+                command = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={folder}/out", str(program), "run", str(model),
+                           "--step", "0.001", "--duration", duration, "--out", f"{folder}/run", "--overwrite", "--quiet",
+                           *([] if page else ["--no-report"])]
+                done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
+                if done.returncode:
+                    sys.exit(f"held_figures: `{' '.join(command)}` failed:\n{done.stderr[-2000:]}")
+                counts[page, duration] = int(re.search(r"Collected : (\d+)", done.stderr)[1])
+    short, long = durations
+    run = counts[False, long] - counts[False, short]
+    return (counts[True, long] - counts[True, short] - run) / run
+
+
 def share_of_tyres(program):
     """Of the instructions of a step of the rigid Iltis on tyres of the Magic Formula, the part in their laws."""
     with tempfile.TemporaryDirectory(prefix="floatframe-count-") as folder:
@@ -219,6 +241,9 @@ def instruction_figures(program):
     for name, arguments in STARTS.items():
         figures[f"instructions of the start: {name}"] = round(collected(program, arguments, COUNTED_START)[0])
     figures["tyres of the Magic Formula, of a step of the rigid Iltis, relative"] = share_of_tyres(program)
+    figures["page of a run, of the run: Iltis, 8 s"] = cost_of_page(program, ROOT / "examples/iltis/iltis.yaml", ("0.1", "8"))
+    figures["page of a run, of the run: chain of 200 links"] = cost_of_page(
+        program, chain(200, "  q: {joint_position: j0}\n"), ("0.05", "0.25"))
     figures["steps with reactions of 18 parallelograms, of those without"] = cost_of_reactions(
         program, lambda outputs: row_of_parallelograms(18, outputs), ("  c0: {position: c0}\n", "  a0: {joint_force: a0}\n"))
     figures["steps with reactions of six legs, of those without"] = cost_of_reactions(

@@ -13,6 +13,7 @@
 #include "floatframe/advice/output_differences.hpp"
 #include "floatframe/body/with_modes.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/work_progress.hpp"
 #include "floatframe/model/output_kind.hpp"
 
 namespace floatframe {
@@ -187,6 +188,13 @@ struct Reduced {
   std::vector<RangeWarning> warnings;
 };
 
+/// A run that tells its progress.
+RunResult told_run(const Model& model, const SimulationDescription& simulation, const char* work) {
+  RunOptions options;
+  options.progress = [work](double done) { tell_progress(work, done); };
+  return run(model, simulation, options);
+}
+
 /// The largest number of candidates that can be removed without changing the outputs, by bisection.
 Reduced drop_most(const Model& model, const SimulationDescription& simulation,
                   const ResultTable& table, const std::vector<ModeAdvice*>& candidates,
@@ -195,7 +203,7 @@ Reduced drop_most(const Model& model, const SimulationDescription& simulation,
   if (!candidates.empty()) {
     SimulationDescription other = simulation;
     other.tolerance = 10.0 * simulation.tolerance;
-    const ResultTable other_table = run(model, other).table;
+    const ResultTable other_table = told_run(model, other, "run with a larger tolerance").table;
     scale = output_scales(table, other_table, model.outputs.size());
   }
   const std::vector<std::size_t> counts = counts_of(candidates);
@@ -210,7 +218,7 @@ Reduced drop_most(const Model& model, const SimulationDescription& simulation,
     std::vector<OutputDifference> differences;
     std::vector<RangeWarning> warnings;
     try {
-      const RunResult result = run(trial, simulation);
+      const RunResult result = told_run(trial, simulation, "run with fewer modes");
       differences = output_differences(scale, table, result.table);
       passed = result.summary.status == "completed";
       warnings = result.summary.warnings;
@@ -284,10 +292,10 @@ ModeAdviceReport advise(const Model& model, const SimulationDescription& given,
   simulation.output_interval = 0.0;
   simulation.tolerance = std::min(given.tolerance, std::max(1e-3 * given.tolerance, 1e-12));
   ModeAdviceReport report;
-  RunResult full = run(watched(model), simulation);
+  RunResult full = told_run(watched(model), simulation, "run");
   if (full.summary.status != "completed") {  // below round-off
     simulation.tolerance = given.tolerance;
-    full = run(watched(model), simulation);
+    full = told_run(watched(model), simulation, "run");
   }
   if (full.summary.status != "completed")
     throw RunError(ErrorCode::step_failed,

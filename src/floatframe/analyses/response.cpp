@@ -10,6 +10,7 @@
 #include "floatframe/analyses/unbalance_report.hpp"
 #include "floatframe/core/json_text.hpp"
 #include "floatframe/core/text_pieces.hpp"
+#include "floatframe/core/work_progress.hpp"
 #include "floatframe/description/road_spectrum.hpp"
 #include "floatframe/linear/frequency_response.hpp"
 #include "floatframe/linear/operating_point.hpp"
@@ -84,8 +85,9 @@ void add_curves(const LinearModel& linear, ResponseResult& r) {
   for (const LinearInput& input : linear.inputs)
     for (const Column& output : linear.outputs)
       r.curves.push_back({output, {input.name, input.unit}, {}});
-  for (const double f : r.frequencies) {
-    const Eigen::MatrixXcd G = response.at_frequency(f);
+  for (std::size_t n = 0; n < r.frequencies.size(); ++n) {
+    tell_progress("frequencies", 1.0 * n / r.frequencies.size());
+    const Eigen::MatrixXcd G = response.at_frequency(r.frequencies[n]);
     std::size_t k = 0;
     for (Eigen::Index j = 0; j < G.cols(); ++j)
       for (Eigen::Index i = 0; i < G.rows(); ++i) r.curves[k++].values.push_back(G(i, j));

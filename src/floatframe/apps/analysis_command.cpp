@@ -1,8 +1,6 @@
 // A command for each analysis: reads and builds the model, runs the analysis, prints the result.
 #include <fmt/format.h>
 
-#include <chrono>
-
 #include "floatframe/analyses/analysis.hpp"
 #include "floatframe/apps/commands.hpp"
 #include "floatframe/apps/progress_bar.hpp"
@@ -43,23 +41,11 @@ std::vector<OutputFile> output_files(const Analysis& analysis, const AnalysisArg
   return files;
 }
 
-/// On a terminal, for work that takes longer than a second or two.
-ProgressListener progress_on_terminal() {
-  using Clock = std::chrono::steady_clock;
-  const auto bar = std::make_shared<ProgressBar>(true, 1.0, "");
-  return
-      [bar, next = Clock::now() + std::chrono::seconds(1)](const char* work, double done) mutable {
-        if (Clock::now() < next) return;
-        next = Clock::now() + std::chrono::milliseconds(100);
-        bar->show(done, work, done);
-      };
-}
-
 /// After a failure, files with the error message replace older ones.
 AnalysisReport run_with_files(const Analysis& analysis, const Model& model,
                               const AnalysisArguments& a) {
   try {
-    const ListenToProgress listen(progress_on_terminal());
+    const ListenToProgress listen(progress_on_terminal(true));
     return analysis.run(model);
   } catch (const RunError& error) {
     for (std::size_t k = 0; analysis.file_of_failure && k < a.files.size(); ++k)

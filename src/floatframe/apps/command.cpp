@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "floatframe/apps/own_file.hpp"
+#include "floatframe/apps/terminal.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/printable.hpp"
@@ -229,9 +230,29 @@ void print(const std::string& text) {
 
 void say_line(const std::string& line) {
   const std::string text = printable(line, true) + '\n';
-  static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
+  write_error(text);
 }
 
-void say(const std::string& message) { say_line("floatframe: " + message); }
+namespace {
+
+/// "floatframe: message", the first word of it in a colour that says what it is.
+void say_with(Style style, const std::string& first, const std::string& rest) {
+  const std::string text = styled(Stream::error, Style::bold, "floatframe:") + " " +
+                           styled(Stream::error, style, printable(first, true)) +
+                           printable(rest, true) + '\n';
+  write_error(text);
+}
+
+}  // namespace
+
+void say(const std::string& message) {
+  constexpr std::string_view warning = "warning:";
+  if (message.starts_with(warning))
+    say_with(Style::yellow, std::string(warning), message.substr(warning.size()));
+  else
+    say_with(Style::bold, "", message);
+}
+
+void say_error(const std::string& message) { say_with(Style::red, message, ""); }
 
 }  // namespace floatframe

@@ -27,7 +27,8 @@ struct Command {
   std::vector<Option> options{};
   std::string footer{};             ///< below the options in its help
   std::function<int()> run{};       ///< returns the exit code; owns the option targets
-  std::vector<Command> commands{};  ///< those of a group (bench), which has no `run`
+  std::vector<Command> commands{};  ///< those below it (bench), which has no `run`
+  std::string group{};              ///< its heading in the help
 };
 
 /// MODEL and --set, as accepted by every command that reads a model.
@@ -109,7 +110,9 @@ void print(const std::string& text);
 /// Writes "floatframe: message" or the bare line to standard error. Control characters are escaped:
 /// names from files and arguments may contain any bytes, and a terminal must not interpret them.
 /// Write errors are ignored.
+/// On a terminal `say` shows "warning:" in yellow, `say_error` its message in red.
 void say(const std::string& message);
+void say_error(const std::string& message);
 void say_line(const std::string& line);
 
 }  // namespace floatframe

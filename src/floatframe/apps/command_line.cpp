@@ -12,21 +12,37 @@
 #include "floatframe/apps/ample_stack.hpp"
 #include "floatframe/apps/command_parser.hpp"
 #include "floatframe/apps/commands.hpp"
+#include "floatframe/apps/source_line.hpp"
+#include "floatframe/apps/terminal.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/printable.hpp"
+#include "floatframe/core/table_width.hpp"
 #include "floatframe/run/run.hpp"
 
 namespace floatframe {
 namespace {
+
+/// An error with its place. On a terminal the message is in red and the line of the file follows,
+/// with a caret; programs find one line for each error.
+void show(const ErrorEntry& entry) {
+  const std::size_t width = terminal_width(Stream::error);
+  if (width == 0) return say_line(entry.text());
+  const std::string place = printable(entry.mark.before(""), true);
+  std::string text = styled(Stream::error, Style::bold, place) +
+                     styled(Stream::error, Style::red, printable(entry.message, true)) + '\n';
+  text += source_line(entry.mark, width);
+  write_error(text);
+}
 
 /// One error per line, as compilers do; the number of errors last.
 int report(const InputError& error) {
   std::set<std::string> files;
   for (const ErrorEntry& entry : error.errors()) {
     if (entry.mark.file.empty() || entry.mark.is_option()) {
-      say(entry.text());
+      say_error(entry.text());
     } else {
       files.insert(entry.mark.file);
-      say_line(entry.text());
+      show(entry);
     }
   }
   if (error.errors().size() > 1) {
@@ -39,8 +55,12 @@ int report(const InputError& error) {
 }
 
 int parse_and_act(int argc, char** argv, const std::vector<Command>& more) {
+  const FitTables fit(terminal_width(Stream::output));
   std::vector<Command> commands = all_commands();
-  commands.insert(commands.end(), more.begin(), more.end());
+  for (const Command& command : more) {
+    commands.push_back(command);
+    commands.back().group = group_of_checks;
+  }
   const ParsedCommand command = parse_command_line(commands, argc, argv);
   return command.run ? command.run() : command.exit_code;
 }
@@ -60,11 +80,11 @@ int run_and_report_errors(int argc, char** argv, const std::vector<Command>& mor
   } catch (const InputError& error) {
     return report(error);
   } catch (const RunError& error) {
-    say(error.what());
+    say_error(error.what());
   } catch (const std::bad_alloc&) {
-    say("there is not enough memory");
+    say_error("there is not enough memory");
   } catch (const std::exception& error) {
-    say(error.what());
+    say_error(error.what());
   }
   return exit_code::failed;
 }

@@ -8,7 +8,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <span>
+#include <sstream>
 
+#include "floatframe/apps/terminal.hpp"
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/number_rule.hpp"
 #include "floatframe/core/suggest.hpp"
@@ -95,6 +97,7 @@ void add_command(CLI::App& app, const Command& command, const Command*& chosen) 
   for (const Option& option : command.options) add_option(*sub, option);
   for (const Command& below : command.commands) add_command(*sub, below, chosen);
   if (!command.footer.empty()) sub->footer(command.footer);
+  if (!command.group.empty()) sub->group(command.group);
   if (command.commands.empty())
     sub->callback([&command, &chosen] { chosen = &command; });
   else
@@ -110,14 +113,14 @@ std::string path_of(const CLI::App& app) {
 
 /// The sentence about a missing or unknown command; empty if the command is valid.
 std::string command_complaint(const std::vector<Command>& commands, const CLI::App& app,
-                              std::span<char*> words) {
+                              std::span<const std::string> words) {
   if (commands.empty()) return "";
   if (words.empty()) return fmt::format("a command is required: {}", names_of(commands));
   for (const Command& command : commands)
     if (command.name == words[0])
       return command_complaint(command.commands, *app.get_subcommand(command.name),
                                words.subspan(1));
-  if (words[0][0] == '-') return "";
+  if (words[0].starts_with('-')) return "";
   std::vector<std::string> names;
   for (const Command& command : commands) names.push_back(command.name);
   return fmt::format("found the command '{}', expected {}{}", words[0], names_of(commands),
@@ -142,6 +145,43 @@ std::string extra_complaint(const CLI::App& app) {
   return fmt::format("found '{}', expected nothing more", extra.front());
 }
 
+/// A help, its headings bold on a terminal.
+std::string with_headings(const std::string& help, Stream stream) {
+  std::istringstream lines(help);
+  std::string out, line;
+  while (std::getline(lines, line)) {
+    const bool heading = line.size() > 1 && line.size() < 40 && line.ends_with(':') &&
+                         std::isupper(static_cast<unsigned char>(line.front())) != 0;
+    out += (heading ? styled(stream, Style::bold, line) : line) + '\n';
+  }
+  return out;
+}
+
+/// `floatframe help COMMAND` is `floatframe COMMAND --help`: the words of the latter; others as
+/// they are.
+std::vector<std::string> words_of(std::span<char*> given) {
+  std::vector<std::string> words(given.begin(), given.end());
+  if (words.empty() || words.front() != "help") return words;
+  words.erase(words.begin());
+  std::erase_if(words, [](const std::string& word) { return word.starts_with('-'); });
+  words.emplace_back("--help");
+  return words;
+}
+
+/// A help may be asked for of commands with others below them, but not of what is no command.
+bool is_help_of_nothing(const std::vector<Command>& commands, std::span<const std::string> words) {
+  if (commands.empty() || words.empty() || words.front().starts_with('-')) return false;
+  const auto known = std::ranges::find(commands, words.front(), &Command::name);
+  return known == commands.end() || is_help_of_nothing(known->commands, words.subspan(1));
+}
+
+/// Nothing was given: the help, as an error for scripts whose variable is empty.
+ParsedCommand show_help(const CLI::App& app) {
+  write_error(with_headings(app.help(), Stream::error));
+  say_error("a command is required");
+  return {{}, exit_code::bad_input};
+}
+
 }  // namespace
 
 ParsedCommand parse_command_line(const std::vector<Command>& commands, int argc, char** argv) {
@@ -149,22 +189,33 @@ ParsedCommand parse_command_line(const std::vector<Command>& commands, int argc,
       "Simulates flexible multibody systems with the floating frame of reference formulation.",
       "floatframe");
   app.get_formatter()->column_width(34);
+  app.get_formatter()->label("SUBCOMMAND", "COMMAND");
+  app.get_formatter()->label("Subcommands", "Commands");
   app.set_version_flag("--version", "floatframe " + build_description());
   app.require_subcommand(1);
   app.footer(
       "SI units, angles in radians. Exit codes: 0 done, 1 failed run, 2 bad input.\n"
-      "`floatframe COMMAND --help` shows the options of a command.");
+      "`floatframe help COMMAND` shows the options of a command.");
   const Command* chosen = nullptr;
   for (const Command& command : commands) add_command(app, command, chosen);
+  const std::vector<std::string> words = words_of({argv + std::min(argc, 1), argv + argc});
+  if (words.empty()) return show_help(app);
   try {
-    app.parse(argc, argv);
+    // `parse` takes the words from the end of the vector.
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return {{}, app.exit(error)};  // --help, --version
-    const std::span<char*> words(argv + std::min(argc, 1), argv + argc);
-    std::string message = command_complaint(commands, app, words);
+    std::string message;
+    const bool no_help = words.back() == "--help" && is_help_of_nothing(commands, words);
+    if (error.get_exit_code() == 0 && !no_help) {  // --help, --version
+      std::ostringstream shown;
+      const int code = app.exit(error, shown, shown);
+      print(with_headings(shown.str(), Stream::output));
+      return {{}, code};
+    }
+    message = command_complaint(commands, app, words);
     if (message.empty()) message = extra_complaint(app);
     if (message.empty()) message = error.what();
-    say(fmt::format("{} (see {} --help)", message, path_of(app)));
+    say_error(fmt::format("{} (see {} --help)", message, path_of(app)));
     return {{}, exit_code::bad_input};
   }
   return {chosen->run, exit_code::done};

@@ -25,14 +25,24 @@ Command vehicle_command();
 Command pack_command();
 Command fmu_command();
 
+inline constexpr const char* group_of_checks = "Is the program right, and how fast";
+
+/// Those of a group follow each other, as the help shows them.
 inline std::vector<Command> all_commands() {
-  std::vector<Command> commands{run_command()};
-  for (Command& analysis : analysis_commands()) commands.push_back(std::move(analysis));
-  for (const auto make :
-       {realtime_command, sweep_command, reduce_command, info_command, convert_command,
-        compare_command, validate_command, outputs_command, export_command, stress_command,
-        rainflow_command, vehicle_command, pack_command, fmu_command})
-    commands.push_back(make());
+  std::vector<Command> commands;
+  const auto add = [&commands](const char* group, std::vector<Command> more) {
+    for (Command& command : more) {
+      command.group = group;
+      commands.push_back(std::move(command));
+    }
+  };
+  add("Make runs", {run_command(), realtime_command(), sweep_command(), vehicle_command()});
+  add("Ask a model", analysis_commands());
+  add("Look at runs", {compare_command(), outputs_command(), stress_command(), rainflow_command(),
+                       export_command()});
+  add("Make flexible parts", {reduce_command(), info_command(), convert_command()});
+  add("Hand models on", {pack_command(), fmu_command()});
+  add(group_of_checks, {validate_command()});
   return commands;
 }
 

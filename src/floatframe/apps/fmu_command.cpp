@@ -38,6 +38,7 @@ int write(const FmuArguments& a) {
   std::vector<std::string> fixed;
   const PackedModel model = model_of(a, fixed);
   const FmuReport report = write_fmu(out, model, {a.version == "3" ? 3 : 2, fixed});
+  if (a.quiet) return exit_code::done;
   std::string platforms;
   for (const std::string& p : report.platforms) platforms += (platforms.empty() ? "" : ", ") + p;
   print(
@@ -46,7 +47,6 @@ int write(const FmuArguments& a) {
                   out, a.version, 1e-6 * static_cast<double>(report.bytes),
                   1e-6 * static_cast<double>(report.model_bytes), report.inputs, report.outputs,
                   report.parameters, platforms));
-  if (a.quiet) return exit_code::done;
   for (const std::string& note : report.notes) say("note: " + note);
   for (const std::string& sentence : fixed) say("note: " + sentence);
   return exit_code::done;
@@ -67,8 +67,7 @@ Command fmu_command() {
                text_option("--outputs", a->outputs, "LIST",
                            "Outputs to show, names with commas between them, 'chassis' for all of "
                            "chassis.x, chassis.y, ...; default: all"),
-               overwrite_option(a->overwrite),
-               flag("--quiet", a->quiet, "No notes; the summary is still printed")}),
+               overwrite_option(a->overwrite), flag("--quiet", a->quiet, "No summary, no notes")}),
           .footer =
               "The runtime for Linux and, if this program was built with it, Windows is inside: no "
               "compiler\nis needed, here or there. Parameters that take a new value without a "

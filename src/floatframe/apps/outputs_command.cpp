@@ -1,5 +1,6 @@
 // floatframe outputs: additional channels from the states of a run, without a new simulation.
 #include "floatframe/apps/commands.hpp"
+#include "floatframe/apps/progress_bar.hpp"
 #include "floatframe/apps/recorded_run.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
@@ -27,6 +28,7 @@ int outputs(const OutputsArguments& arguments) {
     say("note: " + note);
   ResultTable table;
   try {
+    const ListenToProgress listen(progress_on_terminal(true));
     table = new_channels(run.history, model, recorded_options(run), run.added);
   } catch (const RunError& error) {
     say(std::string("the model cannot be started: ") + error.what());

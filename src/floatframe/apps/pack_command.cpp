@@ -31,13 +31,13 @@ int pack_file(const PackArguments& a) {
   std::transform(bytes.begin(), bytes.end(), content.begin(),
                  [](std::byte b) { return static_cast<char>(b); });
   write_file(out, content);
+  if (a.quiet) return exit_code::done;
   std::vector<std::string> parameters;
   for (const PackedParameter& p : model.parameters()) parameters.push_back(p.name);
   print(fmt::format("{}: {} bytes, fingerprint {}\n  parameters  {}\n", out, bytes.size(),
                     model.fingerprint(),
                     parameters.empty() ? "none" : fmt::format("{}", fmt::join(parameters, ", "))));
-  if (!a.quiet)
-    for (const std::string& sentence : fixed) say("note: " + sentence);
+  for (const std::string& sentence : fixed) say("note: " + sentence);
   return exit_code::done;
 }
 
@@ -56,8 +56,7 @@ Command pack_command() {
                            "chassis.x, chassis.y, ...; default: all"),
                flag("--small", a->small,
                     "Leave out what steps and outputs do not use: shapes, stress, nodes"),
-               overwrite_option(a->overwrite),
-               flag("--quiet", a->quiet, "No notes; the summary is still printed")}),
+               overwrite_option(a->overwrite), flag("--quiet", a->quiet, "No summary, no notes")}),
           .footer =
               "All commands that read a model file read a packed one too, and step it with the "
               "same bits.\nParameters that take a new value without a build may still be --set; "

@@ -156,6 +156,7 @@ RunResult run_with(RunFiles& files, const Model& model, const SimulationDescript
       };
     options.checkpoint = [&](const RunCheckpoint& checkpoint) { files.keep(checkpoint); };
   }
+  const ListenToProgress start(progress_on_terminal(!arguments.quiet));
   ProgressBar bar(!arguments.quiet, simulation.duration, "s");
   options.progress = [&bar](double fraction) { bar.show(fraction); };
   return run(model, simulation, options);
@@ -170,7 +171,7 @@ int end_of(const RunPaths& paths, const RunSummary& summary, bool has_table,
   if (interrupted)
     say(summary.message);
   else if (summary.status != "completed")
-    say("the run failed: " + summary.message);
+    say_error("the run failed: " + summary.message);
   if (summary.status != "completed" && has_table && !summary.strict)
     say(fmt::format("the results up to {:.9g} s are kept in {} and marked as partial",
                     cut_at.value_or(summary.duration), paths.folder));
@@ -228,8 +229,8 @@ std::vector<std::string> verify(const RunArguments& arguments, RunFiles& files,
   RunOptions options;
   options.stop = &StopSignal::flag();
   {
-    ProgressBar bar(!arguments.quiet, 100.0, "% of the verification");
-    options.progress = [&bar](double fraction) { bar.show(fraction); };
+    ProgressBar bar(!arguments.quiet, 1.0, "");
+    options.progress = [&bar](double fraction) { bar.show(fraction, "verification"); };
     summary.verification = verify_steps(model, simulation, summary.duration,
                                         next_row(files, paths, report.result.table), options);
   }

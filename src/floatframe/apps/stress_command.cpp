@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "floatframe/apps/commands.hpp"
+#include "floatframe/apps/progress_bar.hpp"
 #include "floatframe/apps/recorded_run.hpp"
 #include "floatframe/core/atomic_file.hpp"
 #include "floatframe/core/diagnostics.hpp"
@@ -64,7 +65,10 @@ void replay(const RecordedRun& run, const ExportSelection& selection, StressRepo
   }
   const std::vector<std::size_t> instants = selected_instants(run.history, selection);
   RecordedMotion motion(run.history, model, recorded_options(run));
+  ProgressBar bar(true, static_cast<double>(instants.size()), "instants");
   for (const std::size_t k : instants) {
+    if (report.instants % 64 == 0)
+      bar.show(static_cast<double>(report.instants) / static_cast<double>(instants.size()));
     const SystemMotion& view = motion.at(k);
     if (report.instants++ == 0) report.from = view.t;
     report.to = view.t;

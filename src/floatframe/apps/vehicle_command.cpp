@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "floatframe/apps/commands.hpp"
+#include "floatframe/apps/progress_bar.hpp"
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/number_rule.hpp"
 #include "floatframe/core/thread_clock.hpp"
@@ -176,7 +177,10 @@ int drive_vehicle(const VehicleArguments& a) {
                            .patches = a.manoeuvre == "straight-stop"};
   VehicleRun run(vehicle_setup(std::move(description), a.manoeuvre, needs, start_speed(a, speed)));
   const Nanoseconds before = thread_cpu_clock();
-  const ManoeuvreReport report = drive(run, a, speed);
+  const ManoeuvreReport report = [&] {
+    const ListenToProgress listen(progress_on_terminal(true));
+    return drive(run, a, speed);
+  }();
   save_record(run, a, used, thread_cpu_clock() - before);
   print(a.json ? report.json : report.text);
   return exit_code::done;

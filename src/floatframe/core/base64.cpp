@@ -7,17 +7,20 @@ namespace floatframe {
 std::string base64(std::string_view bytes) {
   static constexpr char digits[] =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t k = 0; k < bytes.size(); k += 3) {
-    const std::size_t left = bytes.size() - k;
-    const auto byte = [&](std::size_t i) {
-      return i < left ? static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[k + i])) : 0u;
-    };
-    const std::uint32_t three = byte(0) << 16 | byte(1) << 8 | byte(2);
-    for (std::size_t i = 0; i < 4; ++i)
-      out += i <= left ? digits[three >> (18 - 6 * i) & 63u] : '=';
+  const auto bits = [&](std::size_t k) {
+    return static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[k]));
+  };
+  std::string out((bytes.size() + 2) / 3 * 4, '=');
+  std::size_t k = 0;
+  char* to = out.data();
+  for (; k + 3 <= bytes.size(); k += 3) {
+    const std::uint32_t three = bits(k) << 16 | bits(k + 1) << 8 | bits(k + 2);
+    for (const int shift : {18, 12, 6, 0}) *to++ = digits[three >> shift & 63u];
   }
+  const std::size_t left = bytes.size() - k;
+  if (left == 0) return out;
+  const std::uint32_t rest = bits(k) << 16 | (left > 1 ? bits(k + 1) << 8 : 0u);
+  for (std::size_t i = 0; i <= left; ++i) *to++ = digits[rest >> (18 - 6 * i) & 63u];
   return out;
 }
 

@@ -4,6 +4,7 @@
 
 #include "floatframe/core/build_info.hpp"
 #include "floatframe/core/diagnostics.hpp"
+#include "floatframe/core/work_progress.hpp"
 #include "floatframe/history/recorded_motion.hpp"
 #include "floatframe/model/model_hash.hpp"
 #include "floatframe/model/output_kind.hpp"
@@ -83,6 +84,7 @@ ResultTable new_channels(const StateHistory& history, const Model& model,
     table.columns.push_back({model.outputs[k].name, model.outputs[k].unit});
   }
   for (std::size_t k = 0; k < motion.instants(); ++k) {
+    if (k % 64 == 0) tell_progress("instants", 1.0 * k / motion.instants());
     motion.at(k);
     const std::vector<double>& row = motion.outputs();
     table.data.push_back(row[0]);

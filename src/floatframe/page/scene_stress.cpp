@@ -5,14 +5,12 @@
 #include <limits>
 
 #include "floatframe/body/body_stress.hpp"
+#include "floatframe/body/stress_peaks.hpp"
 #include "floatframe/body/surface_mesh.hpp"
 #include "floatframe/model/gauge.hpp"
 
 namespace floatframe {
 namespace {
-
-/// Number of frames per matrix product.
-constexpr Eigen::Index block_of_frames = 64;
 
 /// Candidate stress places of each vertex.
 std::vector<std::vector<int>> places_at(const BodyStress& stress, const SurfaceMesh& mesh) {
@@ -124,39 +122,41 @@ SceneLoads scene_loads(const FlexibleBody& body, const SceneStress& stress) {
   return out;
 }
 
-VertexEnvelope vertex_envelope(const FlexibleBody& body, const SceneStress& stress,
-                               const SceneFrames& frames, std::size_t first, std::size_t columns,
-                               int first_load) {
-  const std::size_t vertices = stress.places.size();
-  const auto nm = static_cast<Eigen::Index>(body.modes());
-  const auto count = static_cast<Eigen::Index>(frames.time.size());
-  VertexEnvelope out{std::vector<float>(vertices, 0.0F), std::vector<float>(vertices, 0.0F)};
-  for (Eigen::Index from = 0; from < count; from += block_of_frames) {
-    const Eigen::Index n = std::min(block_of_frames, count - from);
-    MatX y(nm, n);
-    for (Eigen::Index f = 0; f < n; ++f)
-      for (Eigen::Index m = 0; m < nm; ++m)
-        y(m, f) = frames.amplitudes[static_cast<std::size_t>(from + f) * columns + first +
-                                    static_cast<std::size_t>(m)];
-    MatX values = body.stress->modes * y;
-    if (first_load >= 0) {
-      MatX c(body_load_cases, n);
-      for (Eigen::Index f = 0; f < n; ++f)
-        c.col(f) = Eigen::Map<const Eigen::Vector<double, body_load_cases>>(
-            frames.loads.data() + static_cast<std::size_t>(from + f) * frames.load_columns() +
-            static_cast<std::size_t>(first_load));
-      values.noalias() += body.stress->loads.leftCols<body_load_cases>() * c;
+VertexEnvelopes vertex_envelopes(const FlexibleBody& body, const SceneStress& stress,
+                                 const SceneFrames& frames, std::size_t first, std::size_t columns,
+                                 int first_load) {
+  std::vector<int> slot(body.stress->places.size(), -1), places;  // each place once
+  for (const std::vector<int>& here : stress.all_places)
+    for (const int place : here) {
+      if (slot[place] >= 0) continue;
+      slot[place] = static_cast<int>(places.size());
+      places.push_back(place);
     }
-    for (std::size_t v = 0; v < vertices; ++v)
-      for (const int place : stress.all_places[v])
-        for (Eigen::Index f = 0; f < n; ++f) {
-          const auto s = static_cast<float>(
-              von_mises(values.block<6, 1>(6 * static_cast<Eigen::Index>(place), f)));
-          if (!(s > out.largest[v])) continue;
-          out.largest[v] = s;
-          out.when[v] = static_cast<float>(frames.time[static_cast<std::size_t>(from + f)]);
-        }
-  }
+  StressPeaks peaks(*body.stress, places, first_load >= 0);
+  const auto numbers = [&frames](const std::vector<double>& from, std::size_t all,
+                                 std::size_t column, int count) {
+    const auto instants = std::ssize(frames.time);
+    const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>
+        table(from.data(), instants, static_cast<Eigen::Index>(all));
+    return MatX(table.middleCols(static_cast<Eigen::Index>(column), count));
+  };
+  peaks.add(numbers(frames.amplitudes, columns, first, body.modes()),
+            first_load < 0 ? MatX()
+                           : numbers(frames.loads, frames.load_columns(),
+                                     static_cast<std::size_t>(first_load), body_load_cases));
+  const auto envelope = [&](const std::vector<StressPeaks::Peak>& of) {
+    VertexEnvelope out;
+    for (const std::vector<int>& here : stress.all_places) {
+      StressPeaks::Peak most;
+      for (const int place : here)
+        if (of[slot[place]].square > most.square) most = of[slot[place]];
+      out.largest.push_back(static_cast<float>(std::sqrt(most.square)));
+      out.when.push_back(most.instant < 0 ? 0.0F : static_cast<float>(frames.time[most.instant]));
+    }
+    return out;
+  };
+  VertexEnvelopes out{envelope(peaks.of_modes()), {}};
+  if (first_load >= 0) out.with_loads = envelope(peaks.of_all());
   return out;
 }
 
@@ -180,19 +180,18 @@ SceneStressWriter::Json SceneStressWriter::of(const FlexibleBody& data, Shape& s
   if (out.is_null() || frames_.time.size() < 2 || !data.stress) return out;
   std::size_t columns = 0;
   for (const Body& b : model_.bodies) columns += static_cast<std::size_t>(b.modes());
-  VertexEnvelope envelope = vertex_envelope(data, shape.stress, frames_, first, columns, -1);
   const int first_load = frames_.first_load.empty() ? -1 : frames_.first_load[body];
-  if (first_load >= 0) {
-    VertexEnvelope all = vertex_envelope(data, shape.stress, frames_, first, columns, first_load);
-    if (loads_matter(envelope.largest, all.largest)) {
-      envelope = std::move(all);
-      add_loads(data, shape);
-      out["loads"] = shape.loads;
-      out["first_load"] = columns + columns_.size();
-      for (int k = 0; k < body_load_cases; ++k)
-        columns_.push_back(
-            {static_cast<std::size_t>(first_load + k), shape.loads_factor / shape.stress.factor});
-    }
+  VertexEnvelopes envelopes =
+      vertex_envelopes(data, shape.stress, frames_, first, columns, first_load);
+  VertexEnvelope& envelope = envelopes.by_modes;
+  if (first_load >= 0 && loads_matter(envelope.largest, envelopes.with_loads.largest)) {
+    envelope = std::move(envelopes.with_loads);
+    add_loads(data, shape);
+    out["loads"] = shape.loads;
+    out["first_load"] = columns + columns_.size();
+    for (int k = 0; k < body_load_cases; ++k)
+      columns_.push_back(
+          {static_cast<std::size_t>(first_load + k), shape.loads_factor / shape.stress.factor});
   }
   out["envelope"] =
       buffer_.add(std::span<const float>(envelope.largest), {envelope.largest.size()});

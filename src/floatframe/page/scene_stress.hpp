@@ -45,11 +45,15 @@ SceneLoads scene_loads(const FlexibleBody& body, const SceneStress& stress);
 struct VertexEnvelope {
   std::vector<float> largest, when;
 };
+struct VertexEnvelopes {
+  VertexEnvelope by_modes;
+  VertexEnvelope with_loads;  ///< modes and loads; empty without load coefficients
+};
 /// `first`, `columns`: column of the body's amplitudes, number of all columns; `first_load`: column
-/// of its load coefficients, -1: amplitudes only.
-VertexEnvelope vertex_envelope(const FlexibleBody& body, const SceneStress& stress,
-                               const SceneFrames& frames, std::size_t first, std::size_t columns,
-                               int first_load);
+/// of its load coefficients, -1: none.
+VertexEnvelopes vertex_envelopes(const FlexibleBody& body, const SceneStress& stress,
+                                 const SceneFrames& frames, std::size_t first, std::size_t columns,
+                                 int first_load);
 
 class SceneStressWriter {
  public:

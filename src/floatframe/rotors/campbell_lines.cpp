@@ -9,6 +9,8 @@
 #include <map>
 #include <numeric>
 
+#include "floatframe/core/work_progress.hpp"
+
 namespace floatframe {
 namespace {
 
@@ -39,7 +41,11 @@ class LineBundle {
     std::vector<std::size_t> open(begin.size());
     std::iota(open.begin(), open.end(), std::size_t{0});
     for (const std::size_t mode : begin) add_line(last, mode);
-    for (std::size_t k = last; k-- > 0;) advance(open, k + 1, k);
+    for (std::size_t k = last; k-- > 0;) {
+      tell_progress("speeds", 1.0 - (k + 1.0) / (last + 1.0));
+      const ListenToProgress ignores([](const char*, double) {});  // works within a speed
+      advance(open, k + 1, k);
+    }
   }
 
   /// Lines of the modes at the first speed that are on no other line and end before the last speed.
@@ -51,7 +57,11 @@ class LineBundle {
       open.push_back(lines.size());
       add_line(0, mode);
     }
-    for (std::size_t k = 0; k < last; ++k) advance(open, k, k + 1);
+    for (std::size_t k = 0; k < last; ++k) {
+      tell_progress("speeds, upwards", k / (last + 1.0));
+      const ListenToProgress ignores([](const char*, double) {});
+      advance(open, k, k + 1);
+    }
     for (std::size_t line = lines.size(); line-- > before;)
       if (lines[line][last] != no_mode) remove(line);
   }

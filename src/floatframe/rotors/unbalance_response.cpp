@@ -9,6 +9,7 @@
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/json_text.hpp"
 #include "floatframe/core/suggest.hpp"
+#include "floatframe/core/work_progress.hpp"
 #include "floatframe/model/output_kind.hpp"
 #include "floatframe/rotors/rotor_analysis.hpp"
 #include "floatframe/rotors/rotor_symmetry.hpp"
@@ -153,7 +154,10 @@ UnbalanceResponse unbalance_response(const Model& model, const UnbalanceOptions&
     const Output& output = model.outputs[k];
     r.curves.push_back({{output.name, output.unit}, {}, {}});
   }
-  for (const double speed : r.speeds) {
+  for (std::size_t s = 0; s < r.speeds.size(); ++s) {
+    tell_progress("speeds", 1.0 * s / r.speeds.size());
+    const ListenToProgress ignores([](const char*, double) {});  // works within a speed
+    const double speed = r.speeds[s];
     // At standstill nothing rotates, and the rotation is not restrained.
     const TurningResponse y =
         turning.response(speed == 0.0 ? 1e-3 * o.step : speed, at_speed(forces, speed), outputs);

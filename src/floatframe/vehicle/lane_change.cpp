@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "floatframe/core/work_progress.hpp"
 #include "floatframe/loops/run_error.hpp"
 #include "floatframe/vehicle/lane_path.hpp"
 
@@ -76,6 +77,7 @@ LaneChangeResult lane_change(VehicleRun& run, double speed) {
       throw RunError(ErrorCode::step_failed, "the vehicle does not reach the end of the track");
     const DriverView& view = run.now().view;
     const double angle = follower.steer(view, dt);
+    tell_progress("lane change", (x + lead) / (end + outline.rear + lead));
     run.step(angle, x < released ? controller.force(speed, view.speed, dt) : 0.0);
     const VehicleInstant& now = run.now();
     const PathPoint at = track.local(now.view.x, now.view.y);

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <optional>
 
+#include "floatframe/core/work_progress.hpp"
+
 namespace floatframe {
 
 double smooth_step(double t, double duration) noexcept {
@@ -50,6 +52,7 @@ StepSteerResult steered(VehicleRun& run, const TrimmedInputs& trim, const StepSt
   SteppedHistory h;
   h.add(run.now());
   while (run.now().time < o.duration - 0.5 * run.step_size()) {
+    tell_progress("step steer", run.now().time / o.duration);
     // The angle of the step is that at its end: the input is constant during it.
     const double t = run.now().time + run.step_size();
     run.step(trim.steering + o.angle * smooth_step(t - o.begin, o.ramp), trim.force);
@@ -197,6 +200,7 @@ SteadyCircleResult steady_circle(VehicleRun& run, const SteadyCircleOptions& o) 
   follower.follow(DrivenPath::circle({v.x, v.y}, v.yaw, o.right ? -o.radius : o.radius));
   SteadyCircleResult out;
   for (int k = 1; (k - 1) * o.spacing < last * (1.0 - 1e-9); ++k) {
+    tell_progress("steady circle", (k - 1) * o.spacing / last);
     const double target = speed_at(k * o.spacing);
     const auto point = steady_point(run, follower, controller, speed, target, o);
     if (!point) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "floatframe/core/work_progress.hpp"
 #include "floatframe/loops/run_error.hpp"
 #include "floatframe/vehicle/manoeuvres.hpp"
 
@@ -42,6 +43,7 @@ StraightStopResult straight_stop(VehicleRun& run, const StraightStopOptions& o) 
   PassedSpeed fast{0.8 * out.speed}, slow{0.1 * out.speed};
   double v = out.speed;
   while (v > standing) {
+    tell_progress("stop", 1.0 - v / out.speed);
     if (run.now().time > o.longest)
       throw RunError(ErrorCode::step_failed,
                      fmt::format("the vehicle does not stop: after {:g} s it drives {:.4g} m/s "
