@@ -195,6 +195,34 @@ outputs:
   }
 }
 
+// A leg that touches after 0.2 s: its law has another branch there than at the start.
+TEST(NewChannelsOfEdges, AreOnTheBranchOfTheRecordedPosition) {
+  const std::string text = R"(
+bodies: {m: {rigid: {mass: 1, centre_of_mass: [0, 0, 0], inertia: [0.01, 0.01, 0.01]}}}
+joints: {g: {type: prismatic, child: m, at: [0, 0, 0], axis: z, position: 0.2}}
+forces:
+  leg:
+    {type: spring_damper, from: {body: ground, at: [0, 0, -1]}, to: {body: m, at: [0, 0, 0]},
+     spring: {table: [[0.5, -2000], [1, 0], [3, 0]]}}
+simulation: {step: 0.005, duration: 0.3, locate_edges: true}
+outputs:
+  z: {position: m, axis: z}
+)";
+  const TemporaryFolder folder;
+  const Model before = model_of(text), after = model_of(text + "  f: {force: leg}\n");
+  const std::string path = folder.file("states.ffr");
+  recorded_run(before, before.simulation, path);
+  const ResultTable run_again = run(after, after.simulation).table;
+  const ResultTable added = new_channels(StateHistory(path), after, after.simulation, 1);
+  ASSERT_EQ(added.rows(), run_again.rows());
+  double least = 0.0;
+  for (std::size_t k = 0; k < added.rows(); ++k) {
+    EXPECT_NEAR(added.at(k, 1), run_again.at(k, 2), 1e-9);
+    least = std::min(least, added.at(k, 1));
+  }
+  EXPECT_LT(least, -50.0);
+}
+
 TEST(NewChannelsErrors, StatesOfAnotherCopyOfTheProgramAreRefused) {
   const TemporaryFolder folder;
   const Model model = model_of(std::string(recorded_machine) + own_outputs);

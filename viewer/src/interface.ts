@@ -21,6 +21,14 @@ export interface FloatframeInterface {
   readonly mode: number | null;
   chooseMode(row: number): void;
   readonly selected: { body: number; vertex: number | null } | null;
+  /** Where the camera looks. */
+  cameraTarget(): Triple | null;
+  /** A joint, force or rod that is chosen in the place of a body. */
+  readonly selectedPart: { kind: 'joint' | 'force' | 'rod'; name: string } | null;
+  /** Newtons of an arrow of one metre, newton metres of an arc of a quarter of a turn; 0: there are none. */
+  readonly effortScale: { force: number; torque: number } | null;
+  /** What is drawn of what a force exerts: where its arrow begins and ends, and the angle of its arc [rad]; null: no arrow, no arc, or the layer of forces is not shown. */
+  effortDrawn(force: string): { from: Triple; to: Triple; angle: number } | null;
   /** Median of the last 120 pictures, milliseconds. */
   frameScriptTime(): number;
   /** Pictures since resetScriptTime. */
@@ -93,6 +101,21 @@ export function offerInterface(view: ViewSection | null, problems: string[], cha
     },
     get selected() {
       return view?.stage.selected ?? null;
+    },
+    cameraTarget: () => view?.stage.controls.target.toArray() ?? null,
+    get selectedPart() {
+      const part = view?.stage.part;
+      if (!view || !part) return null;
+      const { joints, forces, rods } = view.stage.scene;
+      return { kind: part.kind, name: { joint: joints, force: forces, rod: rods }[part.kind][part.index].name };
+    },
+    get effortScale() {
+      return view?.stage.connections.effortScale ?? null;
+    },
+    effortDrawn: (name) => {
+      const arrow = view?.stage.connections.arrows[view.stage.scene.forces.findIndex((force) => force.name === name)];
+      const drawn = view?.stage.connections.layers.loads.visible ? arrow?.drawn() : null;
+      return drawn ? { from: shifted(drawn.from), to: shifted(drawn.to), angle: drawn.angle } : null;
     },
     frameScriptTime: () => view?.scriptTime() ?? 0,
     framesDrawn: () => view?.pictures ?? 0,

@@ -7,7 +7,6 @@ import { readChannel, type Channel } from './data/channels';
 import type { ChannelJson, CurvesJson, PageJson, View } from './data/page';
 import { readScene } from './data/scene_data';
 import { offerInterface } from './interface';
-import type { History } from './scene/connections';
 import { Curves } from './ui/curves';
 import { button, h, setIcon } from './ui/dom';
 import { Hub } from './ui/hub';
@@ -114,19 +113,12 @@ async function build(app: HTMLElement): Promise<void> {
   const curvesJson: CurvesJson = page.curves ?? { time: { type: 'f64', offset: 0, shape: [0] }, channels: [] };
   const channels = readChannels(page.curves?.channels ?? [], curvesJson, buffer, report);
   const trusted = readChannels(page.trust?.channels ?? [], page.trust?.time ? { time: page.trust.time, channels: [] } : curvesJson, buffer, report);
-  const history = (name: string): History | null => {
-    const channel = [...channels, ...trusted].find((c) => c.name === name);
-    if (!channel) return null;
-    const largest = channel.range ? Math.max(Math.abs(channel.range.min), Math.abs(channel.range.max)) : 0;
-    return { time: channel.time, values: channel.values, largest };
-  };
-
   let view: ViewSection | null = null;
   let noView: HTMLElement | null = null;
   if (page.scene) {
     try {
       const scene = readScene(page.scene, page.kind, buffer, report);
-      view = new ViewSection(scene, hub, history, page.title || 'floatframe');
+      view = new ViewSection(scene, hub, [...channels, ...trusted], page.title || 'floatframe');
     } catch (error) {
       const text = error instanceof PageError ? error.message : hasWebgl() ? sentence(error) : webglSentence(error);
       noView = h('section', { id: 'view', class: 'card no-view' }, h('p', {}, text));

@@ -140,6 +140,9 @@ std::string page_of_start(const Model& model, const ModelCounts& counts) {
   InitialisedModel start(model, model.simulation, Coordinates::relative);
   JointFollower joints(start.model());
   kinematics_at(start.formulation(), start.state());
+  start.formulation().forces();
+  EffortCollector efforts(start.model());
+  efforts.add(start.formulation().motion());
   SystemState state = system_state(start.formulation().motion(), joints);
   place_bodies(start.model(), start.inertia(), state);
   const CoordinateCounts &r = counts.relative, &a = counts.absolute;
@@ -154,7 +157,9 @@ std::string page_of_start(const Model& model, const ModelCounts& counts) {
   if (PageTable bending = bending_table(model); !bending.rows.empty())
     tables.push_back(std::move(bending));
   for (PageTable& t : coordinate_tables(model, counts)) tables.push_back(std::move(t));
-  return check_page(model, {std::move(state), counts.start.notes, {facts}, std::move(tables), {}});
+  return check_page(
+      model,
+      {std::move(state), counts.start.notes, {facts}, std::move(tables), {}, efforts.take()});
 }
 
 /// The page of a model that has no valid start.

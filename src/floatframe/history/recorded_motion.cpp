@@ -1,5 +1,6 @@
 #include "floatframe/history/recorded_motion.hpp"
 
+#include <algorithm>
 #include <optional>
 
 #include "floatframe/core/diagnostics.hpp"
@@ -31,6 +32,8 @@ struct RecordedMotion::Replay {
         size_of("spring_angles") != f.spring_angles().size() ||
         size_of("element_states") != static_cast<std::size_t>(f.element_states().count()))
       refuse_other_model(history);
+    // Branches held are not recorded: laws are evaluated on those of the recorded positions.
+    std::ranges::fill(memory.force_branches, free_branch);
     // A step starts from the integrator's `a`; if it was not recorded, it is solved for.
     if (!h.header().find("accelerations"))
       solver.emplace(f.coordinates(), steps.model(), options.inertia, memory.state,
@@ -39,6 +42,22 @@ struct RecordedMotion::Replay {
   }
 
   const SystemMotion& at(std::size_t k, std::vector<double>& outputs) {
+    restore(k, true);
+    steps.sample(outputs.data());
+    memory.outputs = steps.memory().outputs;  // turns counted by outputs
+    return steps.formulation().motion({.accelerations = true, .energies = computes_energies});
+  }
+
+  const SystemMotion& without_outputs(std::size_t k, bool accelerations) {
+    restore(k, accelerations);
+    Formulation& f = steps.formulation();
+    kinematics_at(f, memory.state);
+    f.forces();
+    if (accelerations) f.set_accelerations(memory.state.a);
+    return f.motion({.accelerations = accelerations});
+  }
+
+  void restore(std::size_t k, bool accelerations) {
     history.instant(k, row);
     const HistoryHeader& h = history.header();
     State& s = memory.state;
@@ -51,17 +70,14 @@ struct RecordedMotion::Replay {
     s.z = VecX::Map(states.data(), std::ssize(states));
     Formulation& f = steps.formulation();
     f.set_inputs(group("inputs"));
-    if (solver) {
+    if (!solver) {
+      fill("accelerations", h.v, s.a);
+    } else if (accelerations) {
       s.a.setZero();
       solver->solve(s, f.inputs(), memory.spring_angles);
       s.a = solver->accelerations();
-    } else {
-      fill("accelerations", h.v, s.a);
     }
     steps.set_memory(memory);
-    steps.sample(outputs.data());
-    memory.outputs = steps.memory().outputs;  // turns counted by outputs
-    return f.motion({.accelerations = true, .energies = computes_energies});
   }
 
   std::size_t size_of(const char* name) const {
@@ -96,5 +112,9 @@ RecordedMotion::RecordedMotion(const StateHistory& history, const Model& model,
 RecordedMotion::~RecordedMotion() = default;
 
 const SystemMotion& RecordedMotion::at(std::size_t k) { return replay_->at(k, outputs_); }
+
+const SystemMotion& RecordedMotion::without_outputs(std::size_t k, bool accelerations) {
+  return replay_->without_outputs(k, accelerations);
+}
 
 }  // namespace floatframe

@@ -30,6 +30,9 @@ class RecordedMotion {
   /// call. Without reactions, and without energies unless an output of the model needs them. Throws
   /// InputError if there is no such instant or its numbers are not finite.
   const SystemMotion& at(std::size_t k);
+  /// The same without outputs, which are not brought there: cheaper, above all where one of them
+  /// needs reactions. Accelerations that were not recorded are solved for if `accelerations`.
+  const SystemMotion& without_outputs(std::size_t k, bool accelerations);
   /// Time and all outputs of the model at the instant of the last `at`. Outputs that count turns
   /// continue from the previous instant.
   const std::vector<double>& outputs() const noexcept { return outputs_; }

@@ -78,7 +78,9 @@ std::string check_page(const Model& model, const CheckedStart& start) {
                           {"warnings", Json::array()}});
   page["facts"] = facts_json(start.facts);
   page["tables"] = std::move(tables);
-  page["scene"] = scene_json(model, scene_frames(model, start.state), buffer);
+  SceneFrames frames = scene_frames(model, start.state);
+  frames.efforts = start.efforts;
+  page["scene"] = scene_json(model, frames, buffer);
   return page_html(page_template(), page, buffer);
 }
 

@@ -7,6 +7,7 @@
 #include "floatframe/description/system_state.hpp"
 #include "floatframe/model/model.hpp"
 #include "floatframe/page/run_report.hpp"
+#include "floatframe/page/scene_efforts.hpp"
 
 namespace floatframe {
 
@@ -17,6 +18,7 @@ struct CheckedStart {
   std::vector<FactTable> facts;
   std::vector<PageTable> tables;  ///< of the model; tables of joints and forces are added
   std::string failure;            ///< reason why a run cannot start
+  SceneEfforts efforts{};         ///< at the start; may be empty
 };
 
 /// Requires a program built with the viewer.

@@ -176,7 +176,7 @@ void add_states(Json& page, const Model& model, const std::string& states_file,
                 const SimulationDescription* options, PageBuffer& buffer) {
   const StateHistory states(states_file);
   SceneFrames frames = scene_frames(model, states);
-  if (options) add_load_coefficients(model, states, *options, frames);
+  if (options) add_replayed_values(model, states, *options, frames);
   page["scene"] = scene_json(model, frames, buffer);
   add_trust_curves(states, page["trust"], buffer);
 }

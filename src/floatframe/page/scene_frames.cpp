@@ -102,33 +102,40 @@ SceneFrames scene_frames(const Model& model, const SystemState& state) {
   return out;
 }
 
-void add_load_coefficients(const Model& model, const StateHistory& history,
-                           const SimulationDescription& options, SceneFrames& frames) {
+void add_replayed_values(const Model& model, const StateHistory& history,
+                         const SimulationDescription& options, SceneFrames& frames) {
   std::vector<int> first;
   int columns = 0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const auto& stress = model.bodies[b].data->stress;
-    const bool has =
-        stress && stress->loads.size() > 0 && b < frames.known.size() && frames.known[b] != 0;
+    const bool has = frames.instants.size() > 1 && stress && stress->loads.size() > 0 &&
+                     b < frames.known.size() && frames.known[b] != 0;
     first.push_back(has ? columns : -1);
     if (has) columns += body_load_cases;
   }
-  if (columns == 0 || frames.instants.size() < 2) return;
+  EffortCollector efforts(model);
+  const bool collects = history.header().complete() && !efforts.empty();
+  if (frames.instants.empty() || (columns == 0 && !collects)) return;
   try {
     RecordedMotion motion(history, model, options);
     std::vector<double> loads;
     for (const std::size_t k : frames.instants) {
-      const SystemMotion& view = motion.at(k);
+      const SystemMotion& view = motion.without_outputs(k, columns > 0);
+      if (collects) efforts.add(view);
       for (std::size_t b = 0; b < first.size(); ++b) {
         if (first[b] < 0) continue;
         const BodyLoadCoefficients c = body_load_coefficients(view, static_cast<int>(b));
         loads.insert(loads.end(), c.begin(), c.end());
       }
     }
+    if (collects) frames.efforts = efforts.take();
+    if (columns == 0) return;
     frames.loads = std::move(loads);
     frames.first_load = std::move(first);
   } catch (const RunError&) {
-    // The page shows the stress of the amplitudes only.
+    // The page shows the stress of the amplitudes only, and no arrows.
+  } catch (const InputError&) {
+    // The same, of states that cannot be replayed.
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "floatframe/description/system_state.hpp"
 #include "floatframe/model/model.hpp"
+#include "floatframe/page/scene_efforts.hpp"
 
 namespace floatframe {
 
@@ -17,10 +18,11 @@ struct SceneFrames {
   std::vector<char> known;            ///< recorded bodies; others keep their start pose
   std::vector<std::size_t> instants;  ///< indices of the states of the frames
   bool whole = true;                  ///< false: more recorded instants than frames
-  /// Load coefficients of the stress of bodies, in addition to amplitudes (add_load_coefficients):
+  /// Load coefficients of the stress of bodies, in addition to amplitudes (add_replayed_values):
   /// frames x columns.
   std::vector<double> loads;
   std::vector<int> first_load;  ///< column of each body; -1: none. Empty: no body has any
+  SceneEfforts efforts;         ///< may be empty
 
   std::size_t load_columns() const { return time.empty() ? 0 : loads.size() / time.size(); }
   double* pose(std::size_t frame, std::size_t body) {
@@ -41,11 +43,13 @@ SceneFrames scene_frames(const Model& model, const StateHistory& history);
 /// One frame.
 SceneFrames scene_frames(const Model& model, const SystemState& state);
 
-/// Adds the stress contribution of a body's own inertia and weight: the 12 load coefficients of
-/// body_stress.hpp at each frame, from the accelerations of the run, for bodies that have load
-/// stress. Those of the modes' accelerations are used by gauges and `floatframe stress` only.
-/// `options`: those of the run. Adds nothing if the model has no start state.
-void add_load_coefficients(const Model& model, const StateHistory& history,
-                           const SimulationDescription& options, SceneFrames& frames);
+/// Adds what follows from the motion of the run at each frame: what elements exert and where joints
+/// stand, if all states were recorded; and the stress contribution of a body's own inertia and
+/// weight, the 12 load coefficients of body_stress.hpp from the accelerations of the run, for
+/// bodies that have load stress. Those of the modes' accelerations are used by gauges and
+/// `floatframe stress` only. `options`: those of the run. Adds nothing if the model has no start
+/// state.
+void add_replayed_values(const Model& model, const StateHistory& history,
+                         const SimulationDescription& options, SceneFrames& frames);
 
 }  // namespace floatframe

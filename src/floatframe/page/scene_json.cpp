@@ -40,6 +40,7 @@ class SceneWriter {
         frames_(frames),
         buffer_(buffer),
         stress_(model, frames, buffer),
+        efforts_(frames.efforts),
         places_(model.bodies.size()) {}
 
   Json write() {
@@ -61,6 +62,7 @@ class SceneWriter {
     scene["forces"] = std::move(forces_);
     scene["rods"] = std::move(rods_);
     scene["strokes"] = std::move(strokes_);
+    scene["efforts"] = efforts_.numbers(frames_.time.size(), buffer_);
     scene["roads"] = roads();
     scene["gravity"] = triple(model_.gravity);
     return scene;
@@ -139,7 +141,8 @@ class SceneWriter {
   }
 
   void connections() {
-    for (const Joint& j : model_.joints) {
+    for (int i = 0; i < std::ssize(model_.joints); ++i) {
+      const Joint& j = model_.joints[i];
       if (j.automatic) continue;
       const Mat3& R = model_.markers[j.frame_F].X_NM.R;
       const JointKind& kind = joint_kind(j.type);
@@ -154,9 +157,10 @@ class SceneWriter {
                          {"b", point(j.frame_M)},
                          {"axis", has_axis ? triple(R.col(2)) : Json()},
                          {"axes", quaternion_json(R)},
-                         {"cut", j.cut}});
+                         {"cut", j.cut},
+                         {"values", efforts_.values_of_joint(i)}});
     }
-    for (std::size_t k = 0; k < model_.elements.size(); ++k) {
+    for (int k = 0; k < std::ssize(model_.elements); ++k) {
       const Element& e = model_.elements[k];
       const Picture bar = picture_of(e);
       if (bar.symbol == Picture::Symbol::bar)
@@ -177,7 +181,7 @@ class SceneWriter {
     return {{"name", e.name}, {"a", point(s.marker)}, {"points", std::move(view)}};
   }
 
-  Json force(std::size_t index) {
+  Json force(int index) {
     const Element& e = model_.elements[index];
     const Picture picture = picture_of(e);
     Json out{{"name", e.name},
@@ -189,7 +193,7 @@ class SceneWriter {
              {"follows", picture.axis_of >= 0},
              {"radius", nullptr},
              {"width", nullptr},
-             {"channel", nullptr}};
+             {"wrench", nullptr}};
     if (!picture.axis.isZero(0.0))
       out["axis"] =
           triple(picture.axis_of < 0 ? picture.axis
@@ -198,9 +202,10 @@ class SceneWriter {
       out["radius"] = picture.radius;
       out["width"] = picture.width;
     }
-    for (const Output& o : model_.outputs)
-      if (o.type == OutputType::force && o.element == static_cast<int>(index))
-        out["channel"] = o.name;
+    if (!frames_.efforts.empty()) {
+      const int port = frames_.efforts.elements[index].port;
+      efforts_.add_element(index, port < 0 ? -1 : point(e.markers[port]), out);
+    }
     return out;
   }
 
@@ -351,6 +356,7 @@ class SceneWriter {
   const SceneFrames& frames_;
   PageBuffer& buffer_;
   SceneStressWriter stress_;
+  EffortWriter efforts_;
   std::vector<std::vector<Vec3>> places_;  ///< points on each body
   std::map<int, int> point_of_;            ///< index of the point of a marker
   std::set<std::pair<int, int>> held_;     ///< (body, node) pairs that have a point

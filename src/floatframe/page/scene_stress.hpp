@@ -2,7 +2,7 @@
 // Stress in the scene of a page: for each vertex the stress of one place per modal amplitude, and
 // the largest von Mises stress over the frames. A vertex shared by several places - sides of a
 // shell, materials - shows the place that its modes load most; its largest value is that of all. If
-// the frames have load coefficients (add_load_coefficients) and these are significant, their stress
+// the frames have load coefficients (add_replayed_values) and these are significant, their stress
 // is included. The writer puts it into the JSON of the page, with its numbers in the buffer
 // (viewer/README.md).
 #include <nlohmann/json.hpp>

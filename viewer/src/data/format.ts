@@ -41,6 +41,22 @@ export function niceBelow(value: number): number {
   return (lead >= 5 ? 5 : lead >= 2 ? 2 : 1) * power;
 }
 
+/** The smallest of 1, 2 and 5 times a power of ten that is at least `value`. */
+export function niceAbove(value: number): number {
+  const below = niceBelow(value);
+  if (below >= value) return below;
+  const power = 10 ** Math.floor(Math.log10(value));
+  const lead = Math.round(below / power);
+  return (lead === 1 ? 2 : lead === 2 ? 5 : 10) * power;
+}
+
+/** Forces and torques with a prefix where that is readable: "2.5 kN". */
+export function formatEffort(value: number, unit: string, digits = 3): string {
+  const size = Math.abs(value);
+  const [factor, prefix] = size >= 1e6 ? [1e-6, 'M'] : size >= 1e3 ? [1e-3, 'k'] : size >= 1 || size === 0 ? [1, ''] : size >= 1e-3 ? [1e3, 'm'] : [1, ''];
+  return `${formatNumber(value * factor, digits)} ${prefix}${unit}`;
+}
+
 export function plural(count: number, one: string, many = `${one}s`): string {
   return `${count} ${count === 1 ? one : many}`;
 }

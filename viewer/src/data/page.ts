@@ -139,6 +139,22 @@ export interface JointJson {
   axis?: Triple | null;
   axes?: Quadruple | null;
   cut?: boolean | null;
+  /** Its coordinates and their rates. */
+  values?: ValueJson[] | null;
+}
+
+/** A number at each frame: a column of the efforts. */
+export interface ValueJson {
+  name: string;
+  unit?: string | null;
+  column: number;
+}
+
+/** Columns of varying numbers first, then the constants. */
+export interface EffortsJson {
+  /** f32 [F, C] */
+  data?: View | null;
+  constants?: (number | null)[] | null;
 }
 
 export type PictureSymbol = 'none' | 'spring' | 'ring' | 'wheel' | 'force' | 'torque';
@@ -155,7 +171,10 @@ export interface ForceJson {
   follows?: boolean | null;
   radius?: number | null;
   width?: number | null;
-  channel?: string | null;
+  /** What it exerts at a point: columns of x, y, z of its force [N] and of its torque about the point [N m], in the world. */
+  wrench?: { at: number; columns: number[] } | null;
+  /** Its results. */
+  values?: ValueJson[] | null;
 }
 
 /** A name and its part of an energy. */
@@ -192,6 +211,7 @@ export interface SceneJson {
   /** Lines on the body of a point: f32 [n, 3] from the point, in its frame. */
   strokes?: { name: string; a: number; points: View }[] | null;
   roads?: { name: string; profile: View; width: [number, number] }[] | null;
+  efforts?: EffortsJson | null;
   gravity?: Triple | null;
   vibrations?: VibrationsJson | null;
 }

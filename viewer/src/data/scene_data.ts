@@ -1,6 +1,7 @@
 // The scene of the page, checked: what does not fit is left out and said in a sentence, the rest is shown.
 
 import { PageBuffer, PageError } from './buffer';
+import { Efforts, readEfforts } from './efforts';
 import { readVibrations, type VibrationData } from './vibrations';
 import type { BodyJson, FieldJson, ForceJson, JointJson, MeshJson, PageKind, PointJson, Quadruple, SceneJson, StressJson, Triple } from './page';
 import type { Quantity } from '../motion/stress';
@@ -110,6 +111,8 @@ export interface SceneData {
   rods: { name: string; a: number; b: number }[];
   strokes: StrokeData[];
   roads: RoadData[];
+  /** What forces exert and where joints stand, at the frames. */
+  efforts: Efforts | null;
   origin: Triple;
   up: Triple;
   vibrations: VibrationData[];
@@ -368,6 +371,21 @@ export function readScene(json: SceneJson, kind: PageKind, buffer: PageBuffer, r
       report(sentenceOf(error));
     }
   }
+  let efforts: Efforts | null = null;
+  if (json.efforts && time.length > 0) {
+    try {
+      efforts = readEfforts(json.efforts, buffer, time, given);
+    } catch (error) {
+      report(`${sentenceOf(error)} Forces are shown without arrows.`);
+    }
+  }
+  const known = (columns: unknown): boolean => Array.isArray(columns) && columns.every((c) => efforts !== null && Number.isInteger(c) && c >= 0);
+  /** Numbers that the page does not hold are left out. */
+  const withNumbers = <T extends JointJson | ForceJson>(entity: T): T => ({ ...entity, values: (entity.values ?? []).filter((value) => known([value.column])) });
+  const withWrench = (force: ForceJson): ForceJson => {
+    const good = force.wrench && placed(force.wrench.at) && force.wrench.columns?.length === 6 && known(force.wrench.columns);
+    return { ...withNumbers(force), wrench: good ? force.wrench : null };
+  };
   let vibrations: VibrationData[] = [];
   if (json.vibrations) {
     try {
@@ -384,11 +402,12 @@ export function readScene(json: SceneJson, kind: PageKind, buffer: PageBuffer, r
     amplitudeCount,
     bodies,
     points,
-    joints: (json.joints ?? []).filter((joint) => placed(joint.a) && placed(joint.b) && joint.turns + joint.slides < 6),
-    forces: (json.forces ?? []).filter((force) => (placed(force.a) || force.a === -1) && (placed(force.b) || force.b === -1)),
+    joints: (json.joints ?? []).filter((joint) => placed(joint.a) && placed(joint.b) && joint.turns + joint.slides < 6).map(withNumbers),
+    forces: (json.forces ?? []).filter((force) => (placed(force.a) || force.a === -1) && (placed(force.b) || force.b === -1)).map(withWrench),
     rods: (json.rods ?? []).filter((rod) => placed(rod.a) && placed(rod.b)),
     strokes,
     roads,
+    efforts,
     origin: triple(json.origin, [0, 0, 0]),
     up: triple(json.up, [0, 0, 1]),
     vibrations,

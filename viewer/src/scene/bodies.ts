@@ -63,6 +63,11 @@ export class BodyView {
     return this.bending !== null && this.data.mesh?.modes !== null && this.data.modeCount > 0;
   }
 
+  /** It is seen through. */
+  get glass(): boolean {
+    return this.material.transparent && this.material.opacity < 0.9;
+  }
+
   /** Size of the undeformed body about its own frame. */
   private measure(): void {
     const position = this.group.position.clone();

@@ -20,6 +20,7 @@ export const JOINT_COLOUR = '#3f7fc4';
 export const GUIDE_COLOUR = '#0f8f68';
 export const CUT_COLOUR = '#c4563f';
 export const FORCE_COLOUR = '#d5453b';
+export const TORQUE_COLOUR = '#8a4fc4';
 export const MARK_COLOUR = '#e8590c';
 /** Outlines of the model at rest. */
 export const STILL_COLOUR = '#7d8894';

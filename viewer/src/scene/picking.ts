@@ -1,14 +1,17 @@
-// Which body and node lie under the pointer: computed once for a click, with the bent surfaces.
+// What lies under the pointer: computed once for a click, with the bent surfaces.
 
 import { Mesh, Ray, Raycaster, Vector3, type Camera, type Object3D } from 'three';
 import type { Motion } from '../motion/motion';
 import { elastic } from '../motion/motion';
 import type { BodyView } from './bodies';
+import type { Part } from './connections';
 
 export interface Pick {
+  /** -1: a part. */
   body: number;
   /** Vertex of the mesh next to the place, or null on rigid shapes. */
   vertex: number | null;
+  part: Part | null;
   distance: number;
 }
 
@@ -40,34 +43,49 @@ function pickMesh(view: BodyView, motion: Motion, scale: number, ray: Ray): Pick
     if (best && distance >= best.distance) continue;
     let nearest = 0;
     for (let k = 1; k < 3; ++k) if (corners[k].distanceToSquared(hit) < corners[nearest].distanceToSquared(hit)) nearest = k;
-    best = { body: view.data.index, vertex: triangles[i + nearest], distance };
+    best = { body: view.data.index, vertex: triangles[i + nearest], part: null, distance };
   }
   return best;
 }
 
-export function pick(bodies: BodyView[], motion: Motion, scale: number, raycaster: Raycaster, extra: { object: Object3D; body: number }[]): Pick | null {
-  let best: Pick | null = null;
-  const offer = (found: Pick | null): void => {
-    if (found && (!best || found.distance < best.distance)) best = found;
+function pickBody(view: BodyView, motion: Motion, scale: number, raycaster: Raycaster): Pick | null {
+  if (view.data.mesh) return pickMesh(view, motion, scale, raycaster.ray);
+  const meshes: Object3D[] = [];
+  view.group.traverse((object) => {
+    if (object instanceof Mesh && object.visible) meshes.push(object);
+  });
+  const first = raycaster.intersectObjects(meshes, false)[0];
+  return first ? { body: view.data.index, vertex: null, part: null, distance: first.distance } : null;
+}
+
+/** Meshes that are drawn or stand for what is drawn, with those that are seen through bodies apart. */
+function meshesOf(object: Object3D, before: Object3D[], among: Object3D[]): void {
+  if (!object.visible && !object.userData.takesClicks) return;
+  if (object instanceof Mesh) ((object.material as { depthTest?: boolean }).depthTest === false ? before : among).push(object);
+  for (const child of object.children) meshesOf(child, before, among);
+}
+
+/**
+ * What is drawn over bodies comes first, then the nearest of what is solid. Glass lets clicks through: it is
+ * found only where nothing else is.
+ */
+export function pick(bodies: BodyView[], motion: Motion, scale: number, raycaster: Raycaster, parts: { object: Object3D; part: Part }[]): Pick | null {
+  const nearest: { over: Pick | null; solid: Pick | null; glass: Pick | null } = { over: null, solid: null, glass: null };
+  const offer = (rank: keyof typeof nearest, found: Pick | null): void => {
+    const best = nearest[rank];
+    if (found && (!best || found.distance < best.distance)) nearest[rank] = found;
   };
-  for (const view of bodies) {
-    if (!view.group.visible) continue;
-    if (view.data.mesh) offer(pickMesh(view, motion, scale, raycaster.ray));
-    else {
-      const meshes: Object3D[] = [];
-      view.group.traverse((object) => {
-        if (object instanceof Mesh && object.visible) meshes.push(object);
-      });
+  for (const view of bodies) if (view.group.visible) offer(view.glass ? 'glass' : 'solid', pickBody(view, motion, scale, raycaster));
+  for (const { object, part } of parts) {
+    const over: Object3D[] = [];
+    const solid: Object3D[] = [];
+    meshesOf(object, over, solid);
+    for (const [rank, meshes] of [['over', over], ['solid', solid]] as const) {
       const first = raycaster.intersectObjects(meshes, false)[0];
-      if (first) offer({ body: view.data.index, vertex: null, distance: first.distance });
+      if (first) offer(rank, { body: -1, vertex: null, part, distance: first.distance });
     }
   }
-  for (const { object, body } of extra) {
-    if (!object.visible) continue;
-    const first = raycaster.intersectObject(object, true)[0];
-    if (first) offer({ body, vertex: null, distance: first.distance });
-  }
-  return best;
+  return nearest.over ?? nearest.solid ?? nearest.glass;
 }
 
 export function rayThrough(x: number, y: number, camera: Camera): Raycaster {

@@ -10,7 +10,7 @@ import { elastic, Motion } from '../motion/motion';
 import { restOf, swing, type Drawing, type Rest } from '../motion/vibration';
 import { Amplitudes, type SharedUniforms } from './bending';
 import { BodyView, radiusOf } from './bodies';
-import { Connections, type History, type Layer } from './connections';
+import { Connections, type Layer, type Part } from './connections';
 import { Annotations } from './annotations';
 import { buildRoad, Grid } from './ground';
 import { mapTexture, type MapName } from './palette';
@@ -46,6 +46,8 @@ export class Stage {
   deformation = 1;
   follow = -1;
   selected: { body: number; vertex: number | null } | null = null;
+  /** A joint, force or rod, if one is chosen in the place of a body. */
+  part: Part | null = null;
   /** Where the bodies of a model rest that swings, and how far it does. */
   readonly rest: Rest | null = null;
   amplitude = 1;
@@ -64,7 +66,7 @@ export class Stage {
   private viewListeners: (() => void)[] = [];
 
   /** Throws if the browser gives no WebGL. */
-  constructor(scene: SceneData, history: (channel: string) => History | null) {
+  constructor(scene: SceneData) {
     this.scene = scene;
     this.renderer = new WebGLRenderer({ canvas: this.canvas, antialias: true, alpha: true, powerPreference: 'high-performance' });
     this.motion = new Motion(scene);
@@ -86,7 +88,7 @@ export class Stage {
       this.still.add(view.keepStill());
     }
     this.root.add(this.still);
-    this.connections = new Connections(scene, this.size, history);
+    this.connections = new Connections(scene, this.size);
     this.annotations = new Annotations(this);
     this.root.add(this.connections.root, this.roads);
     const level = this.groundLevel();
@@ -210,6 +212,7 @@ export class Stage {
 
   setLayer(layer: Layer, visible: boolean): void {
     this.connections.layers[layer].visible = visible;
+    for (const listener of this.viewListeners) listener();
     this.invalidate();
   }
 
@@ -229,8 +232,21 @@ export class Stage {
 
   select(body: number, vertex: number | null): void {
     this.selected = body >= 0 ? { body, vertex } : null;
+    this.choosePart(null);
     this.bodies.forEach((view, b) => view.setSelected(b === body));
     this.annotations.mark();
+    this.invalidate();
+  }
+
+  selectPart(part: Part): void {
+    this.select(-1, null);
+    this.choosePart(part);
+  }
+
+  private choosePart(part: Part | null): void {
+    if (part === this.part) return;
+    this.part = part;
+    this.connections.choose(part);
     this.invalidate();
   }
 
@@ -251,7 +267,7 @@ export class Stage {
   refresh(): void {
     this.amplitudes.set(this.motion.amplitudes);
     for (const view of this.bodies) view.place(this.motion);
-    this.connections.update(this.motion, this.deformation, this.time);
+    this.connections.update(this.motion, this.deformation);
     this.annotations.update();
     if (this.follow >= 0) {
       const now = this.bodyWorld(this.follow);
@@ -379,10 +395,6 @@ export class Stage {
     const x = ((clientX - box.left) / box.width) * 2 - 1;
     const y = 1 - ((clientY - box.top) / box.height) * 2;
     this.root.updateMatrixWorld(true);
-    const tyres = this.scene.forces
-      .filter((force) => force.picture === 'wheel' && force.a >= 0)
-      .map((force, k) => ({ object: this.connections.layers.tyres.children[k], body: this.scene.points[force.a].body }))
-      .filter((tyre) => tyre.object && tyre.body >= 0);
-    return pick(this.bodies, this.motion, this.deformation, rayThrough(x, y, this.camera), tyres);
+    return pick(this.bodies, this.motion, this.deformation, rayThrough(x, y, this.camera), this.connections.picked());
   }
 }

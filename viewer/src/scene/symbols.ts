@@ -187,36 +187,30 @@ export function buildJoint(turns: number, slides: number, size: number, material
   return group;
 }
 
-/** An arrow of length one along z, to be scaled; `heads` is 2 for torques. */
+/** An arrow along z, to be scaled. */
 export class Arrow {
   readonly group = new Group();
   private readonly shaft: Mesh;
-  private readonly heads: Mesh[] = [];
+  private readonly head: Mesh;
 
-  constructor(private readonly radius: number, colour: string, heads: number) {
+  constructor(private readonly radius: number, colour: string) {
     const material = new MeshPhongMaterial({ color: colour, emissive: colour, emissiveIntensity: 0.25, transparent: true, opacity: 0.9, depthTest: false });
     this.shaft = new Mesh(unitCylinder, material);
-    this.group.add(this.shaft);
-    for (let i = 0; i < heads; ++i) {
-      const head = new Mesh(upright(new ConeGeometry(2.4 * radius, 6 * radius, 20)), material);
-      this.heads.push(head);
-      this.group.add(head);
-    }
-    this.group.renderOrder = 5;
-    this.group.traverse((object) => (object.renderOrder = 5));
+    this.head = new Mesh(upright(new ConeGeometry(2.4 * radius, 6 * radius, 20)), material);
+    this.group.add(this.shaft, this.head);
+    this.shaft.renderOrder = this.head.renderOrder = 5;
   }
 
+  /** From a place, in a direction of any length. A short arrow is thinner, its proportions stay. */
   place(from: ArrayLike<number>, direction: ArrayLike<number>, length: number): void {
-    this.group.visible = Math.abs(length) > 2 * this.radius;
-    if (!this.group.visible) return;
-    const sign = length < 0 ? -1 : 1;
-    const size = Math.abs(length);
     this.group.position.set(from[0], from[1], from[2]);
-    turnTo([sign * direction[0], sign * direction[1], sign * direction[2]], this.group.quaternion);
-    const head = Math.min(6 * this.radius, 0.6 * size);
-    this.shaft.scale.set(this.radius, this.radius, Math.max(size - head, 1e-9));
-    this.shaft.position.z = (size - head) / 2;
-    this.heads.forEach((mesh, k) => (mesh.position.z = size - head / 2 - k * 0.8 * head));
+    turnTo(direction, this.group.quaternion);
+    const part = Math.min(1, length / (14 * this.radius));
+    const head = 6 * this.radius * part;
+    this.shaft.scale.set(part * this.radius, part * this.radius, Math.max(length - head, 1e-9));
+    this.shaft.position.z = (length - head) / 2;
+    this.head.scale.setScalar(part);
+    this.head.position.z = length - head / 2;
   }
 }
 

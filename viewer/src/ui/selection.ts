@@ -1,4 +1,4 @@
-// What is known of the chosen body or node, and its history as curves made on the spot.
+// What is known of the chosen body, node, joint or force, and its history as curves made on the spot.
 
 import type { Channel } from '../data/channels';
 import { formatLength, formatNumber, lengthUnit } from '../data/format';
@@ -6,9 +6,11 @@ import type { BodyData, SceneData } from '../data/scene_data';
 import { rangeOf } from '../data/series';
 import { elastic, Motion } from '../motion/motion';
 import { stressAt, vonMises } from '../motion/stress';
+import type { Part } from '../scene/connections';
 import type { Stage } from '../scene/stage';
 import { h } from './dom';
 import type { Hub } from './hub';
+import { partTable, valuesOfPart } from './part_values';
 import { TimePlot } from './plot';
 
 interface Track {
@@ -51,23 +53,51 @@ export class Selection {
   private readonly stage: Stage;
   private readonly hub: Hub;
   private readonly largest: ArrayLike<number>;
+  private readonly channels: Channel[];
   private plots: TimePlot[] = [];
+  /** Brings the numbers of a part to a time. */
+  private bring: ((time: number) => void) | null = null;
 
-  constructor(stage: Stage, hub: Hub, largest: ArrayLike<number>) {
+  constructor(stage: Stage, hub: Hub, largest: ArrayLike<number>, channels: Channel[]) {
     this.stage = stage;
     this.hub = hub;
     this.largest = largest;
+    this.channels = channels;
+    const nothing = (): void => {};
+    hub.add({ rangeChanged: nothing, hoverChanged: nothing, dataChanged: nothing, timeChanged: () => hub.textsDue && this.bring?.(hub.player?.time ?? 0) });
     this.show(-1, null);
   }
 
-  show(index: number, vertex: number | null): void {
+  private clear(): void {
     for (const plot of this.plots) plot.dispose();
     this.plots = [];
+    this.bring = null;
     this.element.replaceChildren();
+  }
+
+  private add(title: string, unit: string, channels: Channel[]): void {
+    const plot = new TimePlot({ title, unit, channels, height: 130 }, this.hub);
+    this.plots.push(plot);
+    this.element.append(plot.element);
+  }
+
+  showPart(part: Part): void {
+    this.clear();
+    const { scene } = this.stage;
+    const values = valuesOfPart(scene, part, this.channels);
+    const table = partTable(values);
+    this.element.append(h('h3', {}, values.title), h('p', { class: 'hint' }, values.about), values.note ? h('p', { class: 'hint' }, values.note) : table.element);
+    this.bring = table.show;
+    table.show(this.hub.player?.time ?? scene.time[0] ?? 0);
+    for (const { name, unit, values: numbers } of values.curves) this.add(name.charAt(0).toUpperCase() + name.slice(1), unit, [channel(name, name, unit, scene.time, numbers)]);
+  }
+
+  show(index: number, vertex: number | null): void {
+    this.clear();
     const { scene } = this.stage;
     const body = scene.bodies[index];
     if (!body) {
-      this.element.append(h('p', { class: 'hint' }, 'Click a body in the view, or its name in the list: its mass, its modes and its history appear here.'));
+      this.element.append(h('p', { class: 'hint' }, 'Click a body, a joint, a spring, a tyre or an arrow in the view, or a name in the list of bodies: what is known of it and its history appear here.'));
       return;
     }
     const node = vertex !== null ? (body.mesh?.nodes?.[vertex] ?? null) : null;
@@ -106,11 +136,7 @@ export class Selection {
     const { scene } = this.stage;
     if (scene.time.length < 2) return;
     const { position, displacement } = trackOf(scene, body, vertex);
-    const add = (title: string, unit: string, channels: Channel[]): void => {
-      const plot = new TimePlot({ title, unit, channels, height: 130 }, this.hub);
-      this.plots.push(plot);
-      this.element.append(plot.element);
-    };
+    const add = this.add.bind(this);
     if (displacement) {
       const unit = lengthUnit(displacement.reduce((a, b) => Math.max(a, b), 0));
       add('Elastic displacement', unit.name, [channel('displacement', 'magnitude', unit.name, scene.time, displacement.map((v) => v * unit.factor))]);

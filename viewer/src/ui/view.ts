@@ -1,9 +1,11 @@
 // The section of the 3-D view: the picture, its tools, the player, the panel beside it.
 
+import type { Channel } from '../data/channels';
 import type { SceneData } from '../data/scene_data';
 import { Player } from '../motion/player';
-import type { History } from '../scene/connections';
+import type { Part } from '../scene/connections';
 import { Stage, type ViewName } from '../scene/stage';
+import { ArrowKey } from './arrow_key';
 import { BodyList } from './body_list';
 import { Colours } from './colours';
 import { Display } from './display';
@@ -39,6 +41,7 @@ export class ViewSection {
   readonly modes: ModeList | VibrationList | null = null;
   private readonly caption = h('div', { class: 'view-caption', 'aria-live': 'polite' });
   readonly legend = new Legend();
+  private readonly arrowKey: ArrowKey;
   private readonly selection: Selection;
   private readonly bar: PlayerBar;
   private readonly frame: HTMLElement;
@@ -51,9 +54,9 @@ export class ViewSection {
   private since = 0;
   rate = 0;
 
-  constructor(scene: SceneData, hub: Hub, history: (channel: string) => History | null, title: string) {
+  constructor(scene: SceneData, hub: Hub, channels: Channel[], title: string) {
     this.title = title;
-    this.stage = new Stage(scene, history);
+    this.stage = new Stage(scene);
     this.player = new Player(instants(scene));
     hub.player = this.player;
     this.player.onTime(() => hub.tellTime());
@@ -76,7 +79,8 @@ export class ViewSection {
     }
     this.bodies = new BodyList(this.stage, (body) => this.choose(body, null, true));
     for (const body of scene.bodies) if (!body.recorded) this.bodies.set(body.index, false);
-    this.selection = new Selection(this.stage, hub, colours.largest);
+    this.selection = new Selection(this.stage, hub, colours.largest, channels);
+    this.arrowKey = new ArrowKey(this.stage);
     this.bar = new PlayerBar(this.player, 's');
     this.stage.canvas.className = 'canvas';
     this.stage.canvas.tabIndex = 0;
@@ -89,7 +93,7 @@ export class ViewSection {
       button('camera', 'Save a picture', () => this.screenshot()),
       button('full', 'Full screen', () => this.fullScreen()),
     );
-    this.frame = h('div', { class: 'frame' }, this.stage.canvas, tools, buildGizmo(this.stage), this.legend.element, this.stage.rest ? this.caption : null);
+    this.frame = h('div', { class: 'frame' }, this.stage.canvas, tools, buildGizmo(this.stage), this.arrowKey.element, this.legend.element, this.stage.rest ? this.caption : null);
     const side = this.buildSide();
     this.element = h('section', { id: 'view', class: 'card view', 'aria-label': '3-D view' }, h('div', { class: 'view-main' }, this.frame, this.player.moves ? this.bar.element : null), side);
     this.listenToPointer();
@@ -120,6 +124,13 @@ export class ViewSection {
     if (open && body >= 0) this.openTab(this.tabs.length - 1);
   }
 
+  choosePart(part: Part): void {
+    this.stage.selectPart(part);
+    this.bodies.choose(-1);
+    this.selection.showPart(part);
+    this.openTab(this.tabs.length - 1);
+  }
+
   screenshot(): void {
     this.stage.draw(true);
     void saveScreenshot(this.picture(), `${this.title}-${this.stage.rest ? this.caption.textContent : `${this.player.time.toFixed(3)}s`}.png`);
@@ -128,7 +139,7 @@ export class ViewSection {
   /** The picture with its legend, as it would be saved. */
   picture(): HTMLCanvasElement {
     this.stage.draw(true);
-    return takePicture(this.stage.canvas, this.legend, `${this.title}${this.stage.rest ? `, ${this.caption.textContent}` : ''}${this.player.moves && !this.modes ? `, ${this.player.time.toFixed(3)} s` : ''}`);
+    return takePicture(this.stage.canvas, this.legend, `${this.title}${this.stage.rest ? `, ${this.caption.textContent}` : ''}${this.player.moves && !this.modes ? `, ${this.player.time.toFixed(3)} s` : ''}${this.arrowKey.text ? `, ${this.arrowKey.text}` : ''}`);
   }
 
   /** Median script time of the last pictures, milliseconds: places, uniforms and the calls that draw. */
@@ -213,7 +224,8 @@ export class ViewSection {
     this.stage.canvas.addEventListener('pointerup', (event) => {
       if (!down || Math.hypot(event.clientX - down.x, event.clientY - down.y) > 4) return;
       const found = this.stage.pickAt(event.clientX, event.clientY);
-      this.choose(found?.body ?? -1, found?.vertex ?? null, true);
+      if (found?.part) this.choosePart(found.part);
+      else this.choose(found?.body ?? -1, found?.vertex ?? null, true);
     });
     this.stage.canvas.addEventListener('dblclick', (event) => {
       const found = this.stage.pickAt(event.clientX, event.clientY);

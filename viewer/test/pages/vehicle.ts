@@ -176,6 +176,8 @@ export function vehicle(options: { hostile?: boolean; frames?: number; uniform?:
   names.forEach((name) => bodies.push({ name: `${name}_wheel`, mass: 24, facts: [['mass', '24 kg']], modes: null, shape: { kind: 'ellipsoid', size: [0.26, 0.1, 0.26], position: [0, 0, 0], quaternion: [0, 0, 0, 1] }, bound: 0.15, size: 0.3 }));
   const box = tetrahedron(0.45, [-0.2, -0.2, 0]);
   bodies.push({ name: 'box', mass: 90, modes: null, shape: { kind: 'mesh', vertices: writer.view('f32', box.vertices, [4, 3]), triangles: writer.view('u16', box.triangles, [4, 3]), color: '#c2410c' }, bound: 0.6, size: 0.5 });
+  // Upwards, the other five numbers are the constant zero.
+  const along = (column: number, at: number): { at: number; columns: number[] } => ({ at, columns: [8, 8, column, 8, 8, 8] });
   CORNERS.forEach(([fore, side], k) => {
     const foot = point({ name: `${names[k]}_foot`, body: 0, p: [0.9 * fore, side * TRACK * 0.35, -0.3] });
     const root = point({ name: '', body: 1 + k, p: [0, 0, 0] });
@@ -185,8 +187,8 @@ export function vehicle(options: { hostile?: boolean; frames?: number; uniform?:
     const seat = point({ name: '', body: 1 + k, p: [0.66 * ARM, 0, 0.03], modes: Array.from({ length: MODES }, (_, j) => modeShape(j, ARM, 0.66 * ARM, 0, 0.03)) });
     joints.push({ name: `${names[k]}_pivot`, type: 'revolute', turns: 1, slides: 0, a: foot, b: root, axis: [1, 0, 0], cut: false });
     joints.push({ name: `${names[k]}_bearing`, type: 'revolute', turns: 1, slides: 0, a: hub, b: end, axis: [0, 1, 0], cut: k === 3 });
-    forces.push({ name: `${names[k]}_spring`, type: 'spring_damper', picture: 'spring', a: seat, b: top, channel: null });
-    forces.push({ name: `${names[k]}_tyre${k === 0 ? evil : ''}`, type: 'tyre', picture: 'wheel', a: hub, b: -1, axis: [0, 1, 0], radius: RADIUS, width: 0.19, channel: `${names[k]}_tyre_force` });
+    forces.push({ name: `${names[k]}_spring`, type: 'spring_damper', picture: 'spring', a: seat, b: top, wrench: along(4 + k, top), values: [{ name: 'force', unit: 'N', column: 4 + k }] });
+    forces.push({ name: `${names[k]}_tyre${k === 0 ? evil : ''}`, type: 'tyre', picture: 'wheel', a: hub, b: -1, axis: [0, 1, 0], radius: RADIUS, width: 0.19, wrench: along(k, hub), values: [{ name: 'force', unit: 'N', column: k }] });
   });
   const profile: number[] = [];
   for (let x = -4; x <= 16; x += 0.1) profile.push(x, road(x));
@@ -274,6 +276,10 @@ export function vehicle(options: { hostile?: boolean; frames?: number; uniform?:
       forces,
       rods: [{ name: 'tie', a: 1, b: 7 }],
       roads: [{ name: 'road', profile: writer.view('f32', profile, [profile.length / 2, 2]), width: [-1.6, 1.6] }],
+      efforts: {
+        data: writer.view('f32', time.flatMap((_t, f) => ['tyre', 'spring'].flatMap((kind) => names.map((name) => values.get(`${name}_${kind}_force`)![f]))), [frames, 8]),
+        constants: [0],
+      },
       gravity: [0, 0, -9.81],
     },
   };
