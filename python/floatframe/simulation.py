@@ -129,8 +129,7 @@ class Simulation(_core.Simulation):
     ...     z = sim.outputs["chassis.z"]
 
     It watches the range of the method and the energy as a run does; each limit that is exceeded is told once as a warning
-    (`ff.RunWarning`), within the next quarter of the steps, and `warnings` has all of them at any time. watch=False: it does not,
-    and a step of a rigid model costs a tenth less.
+    (`ff.RunWarning`), within the next quarter of the steps, and `warnings` has all of them at any time. watch=False: it does not.
 
     Options are those of `Options`. `time` is the end of the last step [s], `counters` the sums over all steps, `notes` reports
     on the start values. A simulation belongs to one thread at a time: calls from a second one while it steps raise
