@@ -26,7 +26,7 @@ from .analyses import (
 )
 from .bodies import Body, Invariants, Node, Projection
 from .build import build_info, example, program
-from .errors import Error, ErrorEntry, InputError, OutputError, RunError, StepError, UnknownNameError
+from .errors import Error, ErrorEntry, InputError, OutputError, RunError, RunWarning, StepError, UnknownNameError
 from .fmu import FmuReport, export_fmu
 from .health import Report
 from .meshes import BeamSection, Material, Mesh
@@ -36,7 +36,8 @@ from .parts import FileInfo, Part, convert, info, read_body, reduce
 from .places import Place, cylinder, nearest, node, nodes, plane, set_, sphere
 from .roads import Road
 from .run import Result, run
-from .simulation import Simulation
+from .simulation import Recording, Simulation
+from .states import StateName
 from .study import sweep
 
 __version__ = version()
@@ -61,13 +62,16 @@ __all__ = [
     "Part",
     "Place",
     "Projection",
+    "Recording",
     "Report",
     "Result",
     "Road",
     "RunError",
+    "RunWarning",
     "Simulation",
     "SimulationState",
     "State",
+    "StateName",
     "StepError",
     "StepReport",
     "UnknownNameError",

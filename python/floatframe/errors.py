@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import warnings
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
@@ -78,6 +79,23 @@ class StepError(Error, RuntimeError):
         return str(self.args[0])
 
 
+class RunWarning(UserWarning):
+    """A run or a simulation left the range of the method, or failed: the sentence of the command line. `limit` is the limit that was
+    exceeded ("displacement", "balance", ...; docs/range.md), or "failed"."""
+
+    def __init__(self, message: str, limit: str = "") -> None:
+        super().__init__(message, limit)
+        self.limit = limit
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+def tell(message: str, limit: str, above: int = 0) -> None:
+    """Gives a warning at the line that has called the package; `above`: functions of the package in between."""
+    warnings.warn(RunWarning(worded(message), limit), stacklevel=2 + above)
+
+
 # Sentences of the command line mention its options: here these are arguments.
 _OPTION = re.compile(r"(?<![\w/.'\"-])--([a-z]+(?:-[a-z]+)*)\b")
 _HELP = re.compile(r" \(see floatframe \w+ --help\)")
@@ -99,4 +117,4 @@ def entry_of(file: str, line: int, column: int, message: str, code: str, path: s
     return ErrorEntry(file, line, column, worded(message), code, path)
 
 
-__all__: list[Any] = ["Error", "ErrorEntry", "InputError", "OutputError", "RunError", "StepError", "UnknownNameError"]
+__all__: list[Any] = ["Error", "ErrorEntry", "InputError", "OutputError", "RunError", "RunWarning", "StepError", "UnknownNameError"]

@@ -7,11 +7,11 @@ import os
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Union
 
 from . import _core
 from .arrays import path
-from .errors import OutputError, UnknownNameError
+from .errors import OutputError, UnknownNameError, tell
 from .model import Model, built
 from .progress import Bar
 from .options import Array, Options, as_dict
@@ -20,6 +20,10 @@ if TYPE_CHECKING:
     import pandas
     import pyvista
     from typing_extensions import Unpack
+
+
+Controller = Callable[[float, Array, Array], Union[Mapping[str, float], None]]
+"""A sampled controller: `function(time, outputs, inputs)`."""
 
 
 class Result(Mapping[str, Array]):
@@ -129,7 +133,10 @@ class Result(Mapping[str, Array]):
         raise TypeError("a result is not copied or pickled; save() writes its files, to_pandas() is a table of its own")
 
     def __repr__(self) -> str:
-        return f"<floatframe.Result of '{self.name}': {len(self.table)} samples, {self.summary['status']}>"
+        found = [limit for limit, _ in self._core.warnings]
+        said = f", {len(found)} warning{'s' if len(found) > 1 else ''}: {', '.join(found)}" if found else ""
+        why = f": {self.summary['message']}" if self.summary["status"] == "failed" else ""
+        return f"<floatframe.Result of '{self.name}': {len(self.table)} samples, {self.summary['status']}{why}{said}>"
 
 
 def run(
@@ -138,22 +145,49 @@ def run(
     duration: float | None = None,
     progress: bool | Callable[[float], object] = False,
     verify: bool = False,
+    on_step: Controller | None = None,
+    period: float | None = None,
     **options: Unpack[Options],
 ) -> Result:
     """Runs a model; options not given are those of the model. The result of a run that fails contains all samples before the
-    failure, and `res.summary["status"]` shows it.
+    failure, and `res.summary["status"]` shows it. A failure and what left the range of the method are warnings
+    (`ff.RunWarning`), with the sentences of the command line.
 
     duration: [s]. progress: True for a bar (of tqdm, if installed), or a function of the fraction done (0..1), called at most
     20 times a second. verify: makes the run again at a half and a quarter of the step, in about seven times the time:
-    `res.summary["verification"]` has the difference, order and estimated error of each output. All other options are those of `Options`: step [s], coordinates, inertia, start, tolerance, ...
+    `res.summary["verification"]` has the difference, order and estimated error of each output.
+
+    on_step: a sampled controller, `function(time, outputs, inputs)`, called at the beginning of every step, or of every `period`
+    [s], a multiple of the step: time [s], outputs and inputs as arrays in the order of the model. It changes the inputs in place or
+    returns a map of their names and values; they are held from then on. None as its result changes nothing; anything else raises
+    InputError. What it raises comes through. It is called in a thread of its own.
+
+    All other options are those of `Options`: step [s], coordinates, inertia, start, tolerance, ...
 
     Other Python threads keep running meanwhile, and Ctrl-C ends the run. Raises InputError for invalid input, RunError if the
     start cannot be found.
     """
     core = built(model)
     with Bar(progress) as bar:
-        settings = [f"{name}={value}" for name, value in model.parameters.items()]
-        return Result(_core.run(core, duration, bar.show, verify, as_dict(options), model.file, settings), model)
+        core_run = _core.run(core, duration, bar.show, verify, as_dict(options), model.file, settings_of(model), on_step, period)
+    result = Result(core_run, model)
+    if result.summary["status"] == "failed":
+        tell(f"the run failed: {result.summary['message']}", "failed", 1)
+    for limit, sentence in core_run.warnings:
+        tell(sentence, limit, 1)
+    return result
+
+
+def settings_of(model: Model) -> list[str]:
+    """The parameters of a model as they are given to the command line."""
+    return [f"{name}={value}" for name, value in model.parameters.items()]
+
+
+def with_parameters(model: Model, parameters: Mapping[str, Any]) -> Model:
+    """The model with other values of these parameters, built anew."""
+    other = model.copy()
+    other._built = None
+    return other._with({**model.parameters, **parameters})
 
 
 def state_again(text: str) -> _core.State:

@@ -8,14 +8,18 @@ import re
 import signal
 import subprocess
 import tempfile
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .arrays import number, path, texts, whole
+from .arrays import function_or_flag, number, path, texts, whole
 from .build import program
-from .errors import ErrorEntry, InputError, OutputError, RunError, worded
+from .errors import ErrorEntry, InputError, OutputError, RunError, tell, worded
+from .function_study import rows_of_runs
 from .model import Model, built, parameter_text
+from .progress import Bar
+from .run import Controller
+from .yaml import plain
 
 if TYPE_CHECKING:
     import pandas
@@ -34,7 +38,10 @@ def sweep(
     coordinates: str | None = None,
     inertia: str | None = None,
     case_timeout: float | None = None,
-    progress: bool = False,
+    progress: bool | Callable[[float], object] = False,
+    series: bool = False,
+    on_step: Controller | None = None,
+    period: float | None = None,
     vary: Mapping[str, Iterable[Any]] | None = None,
     **variations: Iterable[Any],
 ) -> pandas.DataFrame:
@@ -43,32 +50,90 @@ def sweep(
 
     >>> ff.sweep(model, speed=np.linspace(3, 8, 11), processes=4)
 
-    vary: the same as a map, for names that are not Python identifiers ("simulation.step"). runs: instead of all combinations,
+    vary: the same as a map, for names that are not Python identifiers: options ("simulation.step"), and any value of a model with
+    `data` by its path ("bodies.arm.rigid.mass", "points.tip.0"). runs: instead of all combinations,
     one map of values per run. measure: outputs in the table, "tip.x" or "tip.x:max"; none: all. processes: number of
     simultaneous runs, each in a separate process; None: the number of processors. folder: location of sweep.csv and its
     journal, from which an interrupted study continues; None: temporary. case_timeout [s]: longer runs are counted as failed. A
-    run that fails or crashes is a row whose "status" and "message" give the reason. Raises InputError for invalid input.
+    run that fails or crashes is a row whose "status" and "message" give the reason. progress: True for a bar, in notebooks too, or
+    a function of the fraction done. series: `table.attrs["series"]` has the samples of each run by its number, as pandas tables.
+    Runs that left the range of the method are told as warnings (`ff.RunWarning`).
+
+    on_step, period: a controller of all runs, as of `run`. Such a study, and one of a model with functions as laws, is made in
+    this process, one run after the other, without a journal. Raises InputError for invalid input.
     """
     import pandas  # noqa: F401  before hours of computing
 
     built(model)  # raises its errors
-    if model.functions:
-        raise InputError(f"forces.{next(iter(model.functions))}.law: found a function, which other processes do not have, expected a table; or call run in a loop")
     out_folder = None if folder is None else path("folder", folder)
     fixed = _options(processes, step, duration, coordinates, inertia, case_timeout)
     if vary is not None and not isinstance(vary, Mapping):
         raise InputError(f"vary: found {type(vary).__name__}, expected a map of names and values")
+    function_or_flag("progress", progress)
+    rows = _all_rows({**(vary or {}), **variations}, runs)
+    model, parameters = with_paths(model, list(rows[0]))
+    paths = {parameter: path for path, parameter in parameters.items()}
+    rows = [{parameters.get(name, name): value for name, value in row.items()} for row in rows]
+    figures = texts("measure", measure)
+    if on_step is not None or model.functions:
+        if out_folder is not None or case_timeout is not None:
+            raise InputError("folder, case_timeout: found a study with functions of Python, which has neither")
+        given = {"step": step, "duration": duration, "coordinates": coordinates, "inertia": inertia}
+        table, found = rows_of_runs(model, rows, given, on_step, period, figures, progress)
+        if series:
+            table.attrs["series"] = {run: result.to_pandas() for run, result in found.items()}
+        return table.rename(columns=paths)
     with tempfile.TemporaryDirectory() as scratch:
         out = out_folder or os.path.join(scratch, "study")
-        arguments = [program(), "sweep", *_model_file(model, out_folder or scratch), "--out", out, *fixed]
-        arguments += _values({**(vary or {}), **variations}, runs, scratch)
+        arguments = [program(), "sweep", *_model_file(model, out_folder or scratch), "--out", out, *fixed, "--quiet"]
+        arguments += _written(rows, scratch)
         for name, text in model.parameters.items():
             arguments += ["--set", f"{name}={text}"]
-        for figure in texts("measure", measure):
+        for figure in figures:
             arguments += ["--measure", figure]
-        arguments += ["--fresh"] if fresh else []
-        _run(arguments if progress else [*arguments, "--quiet"], progress)
-        return _table(Path(out, "sweep.csv"))
+        arguments += [option for option, on in (("--fresh", fresh), ("--keep-results", series)) if on]
+        with Bar(progress) as bar:
+            _run(arguments, Path(out, "sweep.journal"), len(rows), bar.show)
+        table = _table(Path(out, "sweep.csv")).rename(columns=paths)
+        if series:
+            table.attrs["series"] = {run: _samples(Path(out, "runs", str(run), "results.csv")) for run in table.index}
+        return table
+
+
+def with_paths(model: Model, names: Sequence[str]) -> tuple[Model, dict[str, str]]:
+    """A model in which the values at these paths of its data are parameters, and the parameters by path. Names that are no paths
+    stay."""
+    paths = [name for name in names if "." in name and not name.startswith("simulation.") and _holder(model.data, name) is not None]
+    if not paths:
+        return model, {}
+    data = plain(model.data)
+    parameters = {path: f"varied_{k}" for k, path in enumerate(paths, start=1)}
+    for path, parameter in parameters.items():
+        holder = _holder(data, path)
+        assert holder is not None
+        into, key = holder
+        data.setdefault("parameters", {})[parameter] = into[key]
+        into[key] = f"${{{parameter}}}"
+    return Model.from_dict(data, folder=os.path.dirname(os.path.abspath(model.file)), **model.parameters), parameters
+
+
+def _holder(data: Any, path: str) -> tuple[Any, Any] | None:
+    """The map or list that has the value at a path, and its key; None if there is none that is a number, a word or a truth value."""
+    *ways, last = path.split(".")
+    for way in ways:
+        data = _item(data, way)
+    value = _item(data, last)
+    if value is None or isinstance(value, (dict, list, tuple)):
+        return None
+    return data, int(last) if isinstance(data, list) else last
+
+
+def _item(data: Any, key: str) -> Any:
+    if isinstance(data, dict):
+        return data.get(key)
+    if isinstance(data, list) and key.isdigit() and int(key) < len(data):
+        return data[int(key)]
+    return None
 
 
 def _options(
@@ -105,7 +170,8 @@ def _model_file(model: Model, folder: str) -> list[str]:
     return [str(file), "--files-in", os.path.dirname(os.path.abspath(model.file))]
 
 
-def _values(vary: Mapping[str, Iterable[Any]], runs: Iterable[Mapping[str, Any]] | None, scratch: str) -> list[str]:
+def _all_rows(vary: Mapping[str, Iterable[Any]], runs: Iterable[Mapping[str, Any]] | None) -> list[dict[str, Any]]:
+    """The values of each run."""
     if runs is None:
         if not vary:
             raise InputError("found nothing to vary, expected values of a parameter: sweep(model, speed=[3, 4, 5])")
@@ -126,6 +192,11 @@ def _values(vary: Mapping[str, Iterable[Any]], runs: Iterable[Mapping[str, Any]]
         rows = _rows(runs)
     if not rows or any(list(row) != list(rows[0]) for row in rows) or not rows[0]:
         raise InputError("runs: expected at least one map of values, all with the same names")
+    return rows
+
+
+def _written(rows: Sequence[Mapping[str, Any]], scratch: str) -> list[str]:
+    """The option with a table of the runs."""
     path = Path(scratch, "runs.csv")
     lines = [list(rows[0])] + [[parameter_text(value) for value in row.values()] for row in rows]
     path.write_text("".join(",".join(_field(text) for text in line) + "\n" for line in lines), encoding="utf-8")
@@ -149,11 +220,16 @@ def _field(text: str) -> str:
     return '"' + text.replace('"', '""') + '"' if any(c in text for c in ',"') else text
 
 
-def _run(arguments: Sequence[str], progress: bool) -> None:
-    errors = None if progress else subprocess.PIPE
-    process = subprocess.Popen(arguments, stdout=subprocess.DEVNULL, stderr=errors, text=True, start_new_session=True)
+def _run(arguments: Sequence[str], journal: Path, runs: int, show: Callable[[float], object] | None) -> None:
+    process = subprocess.Popen(arguments, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True)
     try:
-        _, text = process.communicate()
+        while True:
+            try:
+                _, text = process.communicate(timeout=0.2)
+                break
+            except subprocess.TimeoutExpired:
+                if show is not None:
+                    show(_finished(journal, runs))
     except BaseException:
         process.send_signal(signal.SIGINT)  # the command cancels its runs and keeps the journal
         process.wait()
@@ -162,6 +238,31 @@ def _run(arguments: Sequence[str], progress: bool) -> None:
         raise InputError([_entry(line) for line in (text or "the study was refused").strip().splitlines()])
     if process.returncode not in (0, 1):
         raise RunError(f"the study ended with exit code {process.returncode}: {(text or '').strip()}")
+    if show is not None:
+        show(1.0)
+    for line in text.splitlines():
+        if found := re.match(r"(?:floatframe: )?warning: (.*)", line):
+            tell(found[1], "study", 2)
+
+
+def _finished(journal: Path, runs: int) -> float:
+    """The fraction of runs that are finished: a line of the journal for each, behind its first one."""
+    try:
+        lines = journal.read_bytes().count(b"\n")
+    except OSError:
+        return 0.0
+    return min(1.0, max(0, lines - 1) / runs)
+
+
+def _samples(path: Path) -> pandas.DataFrame | None:
+    """The samples of a run that was kept, over the time; None if it has none."""
+    import pandas
+
+    if not path.is_file():
+        return None
+    table = pandas.read_csv(path)
+    table.columns = [re.sub(r" \[[^]]*\]$", "", name) for name in table.columns]
+    return table.set_index("time")
 
 
 def _entry(line: str) -> ErrorEntry:

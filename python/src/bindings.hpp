@@ -44,6 +44,10 @@ struct RealArray : nb::object {
 struct ComplexArray : nb::object {
   NB_OBJECT_DEFAULT(ComplexArray, nb::object, "numpy.typing.NDArray[numpy.complex128]", is_array)
 };
+inline bool is_list(PyObject* object) { return PyList_Check(object); }
+struct StateNames : nb::object {
+  NB_OBJECT_DEFAULT(StateNames, nb::object, "list[tuple[str, str, int, bool]]", is_list)
+};
 using Keywords = nb::typed<nb::dict, nb::str, nb::object>;
 using Numbers = nb::typed<nb::dict, nb::str, double>;
 using Arrays = nb::typed<nb::dict, nb::str, RealArray>;

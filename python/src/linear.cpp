@@ -119,6 +119,15 @@ std::vector<std::string> names_of(const std::vector<Column>& columns) {
   return names;
 }
 
+/// A list of floatframe.states.StateName.
+StateNames names_of(const std::vector<StateName>& states) {
+  const nb::object type = nb::module_::import_("floatframe.states").attr("StateName");
+  nb::list list;
+  for (const StateName& s : states)
+    list.append(type(state_kind_name(s.kind), s.name, s.index, s.rate));
+  return nb::borrow<StateNames>(list);
+}
+
 using Frequencies = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 
 std::vector<double> finite(const Frequencies& given) {
@@ -165,6 +174,32 @@ void bind_ports(nb::module_& m) {
   value(c, "system", &LinearModel::system, "");
   c.def_prop_ro("inputs", [](const LinearModel& l) { return names_of(l.inputs); });
   c.def_prop_ro("outputs", [](const LinearModel& l) { return names_of(l.outputs); });
+  c.def_prop_ro(
+      "A", [](const LinearModel& l) { return array_of(state_space(l).A); },
+      "Of state_space(), shape (nz, nz).");
+  c.def_prop_ro(
+      "B", [](const LinearModel& l) { return array_of(state_space(l).B); }, "Shape (nz, inputs).");
+  c.def_prop_ro(
+      "C", [](const LinearModel& l) { return array_of(state_space(l).C); }, "Shape (outputs, nz).");
+  c.def_prop_ro(
+      "D", [](const LinearModel& l) { return array_of(state_space(l).D); },
+      "Shape (outputs, inputs).");
+  c.def_prop_ro(
+      "states", [](const LinearModel& l) { return names_of(state_space(l).names); },
+      "The states z by their names, in the order of A.");
+  c.def_prop_ro(
+      "state", [](const LinearModel& l) { return *l.state; }, "Where it was linearised.");
+  c.def_prop_ro(
+      "notes", [](const LinearModel& l) { return l.system.notes; }, "Limits of validity.");
+  c.def(
+      "__iter__",
+      [](const LinearModel& l) {
+        const StateSpace s = state_space(l);
+        return nb::iter(nb::make_tuple(array_of(s.A), array_of(s.B), array_of(s.C), array_of(s.D)));
+      },
+      nb::sig(
+          "def __iter__(self) -> collections.abc.Iterator[numpy.typing.NDArray[numpy.float64]]"),
+      "A, B, C, D, as control.ss takes them.");
   value(c, "time", &LinearModel::time, "Where it was linearised [s].");
   array(c, "input_values", &LinearModel::input_values, "Inputs there, shape (inputs,).");
   array(c, "output_values", &LinearModel::output_values, "Outputs there, shape (outputs,).");

@@ -1,14 +1,31 @@
 // Runs and their results. Python arrays share the memory of the run and keep it alive.
 
-#include "bindings.hpp"
+#include "step_callback.hpp"
 
 namespace floatframe::python {
 namespace {
 
+/// The function is called in the thread of the run.
+Controller controller_of(const Model& model, const nb::object& function, const nb::object& period) {
+  std::vector<std::string> inputs;
+  for (const Input& input : model.inputs) inputs.push_back(input.name);
+  const auto callback =
+      std::make_shared<StepCallback>(function, std::move(inputs), model.outputs.size());
+  Controller controller;
+  controller.period = period_of(period);
+  controller.on_step = [callback](double time, std::span<const double> outputs,
+                                  std::span<double> changed) {
+    Locked lock;
+    (*callback)(time, outputs, changed);
+  };
+  return controller;
+}
+
 std::shared_ptr<KeptRun> run_model(const LoadedModel& model, const nb::object& duration,
                                    const nb::object& progress, bool verify, const Keywords& given,
                                    const std::string& model_file,
-                                   const std::vector<std::string>& settings) {
+                                   const std::vector<std::string>& settings,
+                                   const nb::object& on_step, const nb::object& period) {
   SimulationDescription simulation = described(model, options_of(given));
   if (!duration.is_none()) {
     simulation.duration = number("duration", duration);
@@ -20,13 +37,19 @@ std::shared_ptr<KeptRun> run_model(const LoadedModel& model, const nb::object& d
   options.keep_state = true;
   options.stop = &stop;
   options.progress = [&fraction](double f) { fraction = f; };
+  Controller controller;
+  if (!on_step.is_none()) controller = controller_of(model, on_step, period);
+  if (!on_step.is_none() && verify)
+    throw InputError(ErrorCode::contradiction,
+                     "verify: found a run with on_step, whose function may remember, expected one "
+                     "that can be made again");
   auto result = std::make_shared<KeptRun>();
   interruptible(
       stop,
       [&] {
         RunOptions first = options;
         if (verify) first.progress = [&fraction](double f) { fraction = f / 7.0; };
-        *result = run_and_keep(model, simulation, first);
+        *result = run_and_keep(model, simulation, first, controller);
         RunSummary& summary = result->result.summary;
         if (!verify || summary.status == "interrupted" || summary.steps == 0) return;
         options.progress = [&fraction](double f) { fraction = (1.0 + 6.0 * f) / 7.0; };
@@ -75,6 +98,14 @@ void bind_run(nb::module_& m) {
                      return *r.result.state;
                    })
       .def_prop_ro("summary_json", [](const KeptRun& r) { return summary_json(r.result.summary); })
+      .def_prop_ro("warnings",
+                   [](const KeptRun& r) {
+                     std::vector<std::pair<std::string, std::string>> list;
+                     for (const RangeWarning& w : r.result.summary.warnings)
+                       list.emplace_back(range_limit_names[static_cast<std::size_t>(w.limit)],
+                                         w.sentence);
+                     return list;
+                   })
       .def_prop_ro("results_csv", [](const KeptRun& r) { return results_csv(r.result.table); })
       .def("save", [](const KeptRun& r, const LoadedModel& model, const std::string& folder,
                       const std::string& model_file) {
@@ -85,7 +116,8 @@ void bind_run(nb::module_& m) {
         save_run(model, run, folder);
       });
   m.def("run", run_model, nb::arg("model"), nb::arg("duration").none(), nb::arg("progress").none(),
-        nb::arg("verify"), nb::arg("options"), nb::arg("model_file"), nb::arg("settings"));
+        nb::arg("verify"), nb::arg("options"), nb::arg("model_file"), nb::arg("settings"),
+        nb::arg("on_step") = nb::none(), nb::arg("period") = nb::none());
 }
 
 }  // namespace floatframe::python

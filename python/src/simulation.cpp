@@ -1,15 +1,17 @@
 // Simulations stepped by Python. A simulation belongs to one thread at a time: while it steps,
 // without the lock of the interpreter, calls from other threads and from its own callbacks are
 // rejected.
+#include <nanobind/stl/tuple.h>
+
+#include <floatframe/history.hpp>
+#include <set>
 #include <thread>
 #include <unordered_map>
 
-#include "bindings.hpp"
+#include "step_callback.hpp"
 
 namespace floatframe::python {
 namespace {
-
-using Line = nb::ndarray<nb::numpy, double, nb::ndim<1>>;
 
 /// A force law: the value of an input as a function of the time and of some outputs.
 struct Law {
@@ -19,33 +21,38 @@ struct Law {
 };
 
 struct Stepper {
-  Stepper(const Model& model, const SimulationOptions& options) : simulation(model, options) {
+  Stepper(const Model& model, const SimulationOptions& options, bool watch)
+      : simulation(model, options), watched(watch) {
     const auto number = [](std::vector<std::string>&& names, auto& index) {
       for (std::size_t k = 0; k < names.size(); ++k) index.emplace(names[k], k);
       return std::move(names);
     };
     input_names = number(simulation.input_names(), input_index);
     output_names = number(simulation.output_names(), output_index);
+    if (watch) recording.emplace(simulation, RecordingOptions{.rows = false});
   }
 
   Simulation simulation;
+  bool watched;
+  std::optional<Recording> recording;  ///< watches alone, or records too
+  bool records = false;
+  std::set<RangeLimit> told;  ///< limits that a warning was given of
+  std::int64_t made = 0,
+               next_look = 100;  ///< steps since the beginning, and until warnings are due
   std::vector<std::string> input_names, output_names;
   std::unordered_map<std::string, std::size_t> input_index, output_index;
   std::atomic<bool> busy{false};
   std::thread::id worker;
-  nb::object on_step;
+  std::shared_ptr<StepCallback> on_step;
   std::vector<Law> laws;
-  /// Arguments of on_step: outputs and inputs. Arrays are views of numbers that live as long as the
-  /// simulation and the last view, whatever is done to the arrays.
-  std::shared_ptr<std::vector<double>> seen_numbers, changed_numbers;
-  nb::object seen, changed;
   std::exception_ptr failed;
 
+  bool in_callback() const { return busy && worker == std::this_thread::get_id(); }
   /// Throws if the simulation is stepping.
   Simulation& idle() {
     if (!busy) return simulation;
     throw std::runtime_error(
-        worker == std::this_thread::get_id()
+        in_callback()
             ? "the simulation was called by its own callback, which may use its arguments only"
             : "the simulation is stepping in another thread; it belongs to one thread at a time");
   }
@@ -69,33 +76,6 @@ std::size_t output_of(const Stepper& s, const nb::handle name) {
   return index_in(s.output_index, s.output_names, "output", text("output", name));
 }
 
-using Kept = std::shared_ptr<std::vector<double>>;
-
-nb::object view_of(const Kept& numbers) {
-  auto kept = std::make_unique<Kept>(numbers);
-  nb::capsule owner(kept.get(), [](void* p) noexcept { delete static_cast<Kept*>(p); });
-  kept.release();
-  return nb::cast(Line(numbers->data(), {numbers->size()}, owner));
-}
-
-/// Replaces the view if the user has modified the array object.
-void keep_view(nb::object& array, const Kept& numbers) {
-  Line line;
-  if (!nb::try_cast(array, line) || line.data() != numbers->data() ||
-      line.shape(0) != numbers->size())
-    array = view_of(numbers);
-}
-
-void call_on_step(Stepper& s, double time, std::span<const double> outputs,
-                  std::span<double> inputs) {
-  std::copy(outputs.begin(), outputs.end(), s.seen_numbers->begin());
-  std::copy(inputs.begin(), inputs.end(), s.changed_numbers->begin());
-  keep_view(s.seen, s.seen_numbers);
-  keep_view(s.changed, s.changed_numbers);
-  s.on_step(time, s.seen, s.changed);
-  std::copy_n(s.changed_numbers->begin(), inputs.size(), inputs.begin());
-}
-
 void call_law(const Stepper& s, const Law& law, double time, std::span<const double> outputs,
               std::span<double> inputs) {
   nb::list arguments;
@@ -112,7 +92,7 @@ void call_law(const Stepper& s, const Law& law, double time, std::span<const dou
 
 /// The function called by the library before each step while there are callbacks.
 void set_callback(Stepper& s) {
-  if (!s.on_step.is_valid() && s.laws.empty()) {
+  if (!s.on_step && s.laws.empty()) {
     s.simulation.on_force({});
     return;
   }
@@ -120,7 +100,7 @@ void set_callback(Stepper& s) {
       [&s](double time, std::span<const double> outputs, std::span<double> inputs) {
         Locked lock;
         try {
-          if (s.on_step.is_valid()) call_on_step(s, time, outputs, inputs);
+          if (s.on_step) (*s.on_step)(time, outputs, inputs);
           for (const Law& law : s.laws) call_law(s, law, time, outputs, inputs);
         } catch (...) {
           s.failed = std::current_exception();
@@ -129,17 +109,12 @@ void set_callback(Stepper& s) {
       });
 }
 
-void on_step(Stepper& s, const nb::object& function) {
+void on_step(Stepper& s, const nb::object& function, const nb::object& period) {
   s.idle();
-  if (!function.is_none() && !PyCallable_Check(function.ptr()))
-    throw InputError(ErrorCode::wrong_value,
-                     "on_step: found " + type_of(function) +
-                         ", expected a function of (time, outputs, inputs), or None");
-  s.on_step = function.is_none() ? nb::object() : function;
-  s.seen_numbers = std::make_shared<std::vector<double>>(s.output_names.size());
-  s.changed_numbers = std::make_shared<std::vector<double>>(s.input_names.size());
-  s.seen = view_of(s.seen_numbers);
-  s.changed = view_of(s.changed_numbers);
+  s.on_step = function.is_none()
+                  ? nullptr
+                  : std::make_shared<StepCallback>(function, s.input_names, s.output_names.size(),
+                                                   period_of(period));
   set_callback(s);
 }
 
@@ -162,6 +137,26 @@ struct Report {
   std::string where;
 };
 
+using LimitAndSentence = std::vector<std::pair<std::string, std::string>>;
+
+LimitAndSentence warnings(Stepper& s) {
+  s.idle();
+  LimitAndSentence list;
+  if (s.recording)
+    for (const RangeWarning& w : s.recording->warnings())
+      list.emplace_back(range_limit_names[static_cast<std::size_t>(w.limit)], w.sentence);
+  return list;
+}
+
+/// Gives a warning of each limit once, now and then: finding its sentence costs more than a step.
+void look(Stepper& s) {
+  s.next_look = s.made + std::max<std::int64_t>(100, s.made / 4);
+  for (const RangeWarning& w : s.recording->warnings())
+    if (s.told.insert(w.limit).second)
+      nb::module_::import_("floatframe.errors")
+          .attr("tell")(w.sentence, range_limit_names[static_cast<std::size_t>(w.limit)]);
+}
+
 Report step(Stepper& s, const nb::object& given) {
   s.idle();
   std::optional<double> size;
@@ -175,12 +170,16 @@ Report step(Stepper& s, const nb::object& given) {
     report = size ? s.simulation.step(*size) : s.simulation.step();
   }
   s.busy = false;
-  if (report) return {report, ""};
+  if (report) {
+    if (++s.made >= s.next_look && s.recording) look(s);
+    return {report, ""};
+  }
   if (s.failed) std::rethrow_exception(std::exchange(s.failed, nullptr));
   const nb::object type = nb::module_::import_("floatframe.errors").attr("StepError");
   const nb::object error = type(s.simulation.failure(), step_status_name(report.status),
                                 std::string(report.where), report.time);
   set_cause(error, s.simulation.thrown());
+  if (s.recording) look(s);
   PyErr_SetObject(type.ptr(), error.ptr());
   throw nb::python_error();
 }
@@ -190,7 +189,7 @@ int traverse(PyObject* self, visitproc visit, void* arg) {
   Py_VISIT(Py_TYPE(self));
   if (!nb::inst_ready(self)) return 0;
   const Stepper* s = nb::inst_ptr<Stepper>(self);
-  Py_VISIT(s->on_step.ptr());
+  if (s->on_step) Py_VISIT(s->on_step->function().ptr());
   for (const Law& law : s->laws) Py_VISIT(law.function.ptr());
   return 0;
 }
@@ -205,6 +204,85 @@ int clear(PyObject* self) {
 PyType_Slot slots[] = {{Py_tp_traverse, reinterpret_cast<void*>(traverse)},
                        {Py_tp_clear, reinterpret_cast<void*>(clear)},
                        {0, nullptr}};
+
+/// While a call without the lock of the interpreter uses the simulation, others are rejected.
+struct Busy {
+  explicit Busy(Stepper& s) : stepper(s) {
+    s.idle();
+    s.worker = {};
+    s.busy = true;
+  }
+  ~Busy() { stepper.busy = false; }
+  Busy(const Busy&) = delete;
+  Busy& operator=(const Busy&) = delete;
+  Stepper& stepper;
+};
+
+using Named = std::tuple<std::string, std::string, int, bool>;
+
+StateName state_name(const Named& given) {
+  const auto& [kind, name, index, rate] = given;
+  return {word_of<StateKind>("kind", kind,
+                             {{"joint", StateKind::joint},
+                              {"mode", StateKind::mode},
+                              {"element", StateKind::element},
+                              {"body", StateKind::body},
+                              {"input", StateKind::input},
+                              {"combination", StateKind::combination}}),
+          name, index, rate};
+}
+
+RealArray state_values(Stepper& s, const std::vector<Named>& given) {
+  if (!s.in_callback()) s.idle();
+  std::vector<StateName> names;
+  for (const Named& name : given) names.push_back(state_name(name));
+  return array_of(s.simulation.state_values(names));
+}
+
+void set_state(Stepper& s, const std::vector<std::pair<Named, double>>& given) {
+  std::vector<GivenState> values;
+  for (const auto& [name, value] : given) values.push_back({state_name(name), value});
+  const Busy busy(s);
+  Unlocked released;
+  s.simulation.set_state(values);
+}
+
+void change_model(Stepper& s, const Model& model) {
+  const Busy busy(s);
+  Unlocked released;
+  s.simulation.change_model(model);
+}
+
+LinearModel linear(Stepper& s, const std::vector<std::string>& inputs,
+                   const std::vector<std::string>& outputs) {
+  const Busy busy(s);
+  Unlocked released;
+  return linear_model(s.simulation, {inputs, outputs});
+}
+
+/// Ends the recording; with `every`, begins another one.
+void record(Stepper& s, std::optional<std::int64_t> every, std::int64_t keep) {
+  s.idle();
+  s.recording.reset();
+  s.records = false;
+  if (every) {
+    s.recording.emplace(s.simulation, RecordingOptions{.every = *every, .keep = std::size_t(keep)});
+    s.records = true;
+  } else if (s.watched) {
+    s.recording.emplace(s.simulation, RecordingOptions{.rows = false});
+  }
+}
+
+std::shared_ptr<KeptRun> recorded(Stepper& s, const LoadedModel& model, const std::string& file,
+                                  const std::vector<std::string>& settings) {
+  s.idle();
+  if (!s.records) throw InputError(ErrorCode::missing, "found a simulation that is not recorded");
+  auto kept = std::make_shared<KeptRun>(keep_recording(*s.recording));
+  kept->model_file = file;
+  kept->settings = settings;
+  kept->source = model.source;
+  return kept;
+}
 
 Numbers counters(Stepper& s) {
   const StepCounters c = s.idle().counters();
@@ -248,12 +326,12 @@ void bind_simulation(nb::module_& m) {
   nb::class_<Stepper>(m, "Simulation", nb::type_slots(slots))
       .def(
           "__init__",
-          [](Stepper* self, const Model& model, const Keywords& given) {
+          [](Stepper* self, const Model& model, const Keywords& given, bool watch) {
             const SimulationOptions options = options_of(given);
             Unlocked released;
-            new (self) Stepper(model, options);
+            new (self) Stepper(model, options, watch);
           },
-          nb::arg("model"), nb::arg("options"))
+          nb::arg("model"), nb::arg("options"), nb::arg("watch") = true)
       .def("step", step, nb::arg("size") = nb::none(),
            nb::sig("def step(self, size: float | None = None) -> StepReport"),
            "One step of the size of the options, or of `size` [s]. Raises StepError if it fails: "
@@ -282,9 +360,21 @@ void bind_simulation(nb::module_& m) {
            [](Stepper& s, const nb::object& n) { return s.idle().outputs()[output_of(s, n)]; })
       .def("inputs_array", [](Stepper& s) { return array_of(copied(s.idle().inputs())); })
       .def("outputs_array", [](Stepper& s) { return array_of(copied(s.idle().outputs())); })
-      .def("set_on_step", on_step, nb::arg("function").none())
+      .def("set_on_step", on_step, nb::arg("function").none(), nb::arg("period").none())
       .def("set_law", add_law, nb::arg("input"), nb::arg("function").none(), nb::arg("of"),
            nb::sig("def set_law(self, input: str, function: object | None, of: list[str]) -> None"))
+      .def("warning_list", warnings)
+      .def("state_values", state_values, nb::arg("names"))
+      .def("set_state", set_state, nb::arg("values"))
+      .def("change_model", change_model, nb::arg("model"))
+      .def("linear", linear, nb::arg("inputs"), nb::arg("outputs"))
+      .def("begin_recording", record, nb::arg("every").none(), nb::arg("keep"))
+      .def("recorded", recorded, nb::arg("model"), nb::arg("model_file"), nb::arg("settings"))
+      .def_prop_ro("instants",
+                   [](Stepper& s) { return s.records ? s.recording->instants() : std::size_t(0); })
+      .def(
+          "reset", [](Stepper& s) { s.idle().reset(); },
+          "Returns to the start: its time, state, inputs and counters. A few microseconds.")
       .def(
           "save", [](Stepper& s) { return s.idle().save(); },
           "Complete state for the next steps; may be pickled.")

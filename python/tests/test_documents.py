@@ -25,7 +25,7 @@ def run(text, folder):
 
 @pytest.mark.parametrize("name, least", [("docs/python.md", 9), ("README.md", 1)])
 def test_blocks_run_as_they_are_written(name, least, tmp_path):
-    for library in ("pandas", "matplotlib", "meshio", "pyvista", "IPython"):
+    for library in ("control", "pandas", "matplotlib", "meshio", "pyvista", "IPython"):
         pytest.importorskip(library)
     found = blocks(name)
     assert len(found) >= least

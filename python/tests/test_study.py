@@ -6,6 +6,7 @@ import sys
 import floatframe as ff
 import numpy as np
 import pytest
+from cart import soft_beam
 
 
 def test_the_table_is_that_of_the_command_line(tmp_path):
@@ -90,3 +91,50 @@ def test_whole_numbers_are_written_alike(tmp_path):
         tables.append((tmp_path / str(k) / "sweep.csv").read_bytes())
     subprocess.run([ff.program(), "sweep", path, "--vary", "speed=3:5:3", "--duration", "0.02", "--quiet", "--out", tmp_path / "c"], check=True)
     assert {*tables} == {(tmp_path / "c/sweep.csv").read_bytes()}
+
+
+def test_any_value_varies_by_its_path():
+    path = "bodies.arm.rigid.centre_of_mass.0"
+    table = ff.sweep(model(), vary={path: [0.4, 0.5]}, m=[1, 2], measure=["end.z:min"])
+    assert list(table[path]) == [0.4, 0.4, 0.5, 0.5] and list(table["m"]) == [1, 2, 1, 2]
+    expected = []
+    for place in (0.4, 0.5):
+        changed = model()
+        changed.bodies["arm"]["rigid"]["centre_of_mass"][0] = place
+        expected += [ff.run(changed)["end.z"].min()] * 2
+    assert table["end.z min [m]"][1] == expected[0] and table["end.z min [m]"][3] == expected[2]
+    with pytest.raises(ff.InputError, match="bodies.nobody"):
+        ff.sweep(model(), vary={"bodies.nobody.rigid.mass": [1.0]})
+
+
+def test_series_and_progress():
+    seen = []
+    table = ff.sweep(model(), m=[1, 2], series=True, progress=seen.append)
+    series = table.attrs["series"]
+    assert sorted(series) == [1, 2] and seen[-1] == 1.0
+    assert np.array_equal(series[1]["end.z"], ff.run(model())["end.z"])
+
+
+def driven():
+    m = model()
+    m.inputs.add("T")
+    m.forces.add("motor", type="torque", body="arm", direction="y", magnitude={"input": "T"})
+    return m
+
+
+def test_functions_in_studies():
+    table = ff.sweep(driven(), m=[1, 2], vary={"simulation.duration": [0.05, 0.1]}, on_step=lambda time, outputs, inputs: {"T": 3.0}, series=True)
+    plain = ff.sweep(driven(), m=[1, 2], vary={"simulation.duration": [0.05, 0.1]})
+    assert list(table["m"]) == list(plain["m"]) and set(table["status"]) == {"completed"}
+    figures = [name for name in plain.columns if name.startswith("end.z ")]
+    assert figures and set(figures) <= set(table.columns)
+    assert not np.allclose(table["end.z final [m]"], plain["end.z final [m]"], atol=1e-6)
+    still = ff.sweep(driven(), m=[1, 2], vary={"simulation.duration": [0.05, 0.1]}, on_step=lambda *_: None)
+    for name in figures:
+        np.testing.assert_allclose(still[name], plain[name], rtol=1e-12, atol=1e-15)
+    assert len(table.attrs["series"][4]) == 101
+
+
+def test_studies_tell_what_left_the_range():
+    with pytest.warns(ff.RunWarning, match="left the range"):
+        ff.sweep(soft_beam(), vary={"simulation.step": [1e-3, 2e-3]})

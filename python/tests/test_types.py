@@ -47,6 +47,18 @@ sim.law("damper", lambda time, v: -900.0 * v, of=["chassis.z"])
 saved: ff.SimulationState = sim.save()
 sim.restore(ff.SimulationState.from_bytes(saved.to_bytes()))
 state: ff.State = sim.state()
+controlled = ff.run(model, on_step=lambda time, outputs, inputs: {"damper": -900.0 * float(outputs[0])}, period=1e-2)
+recording: ff.Recording = sim.record(every=10, keep=1000)
+recorded: ff.Result = recording.result()
+sim.set(q={"knee": 0.5, "arm": [0.0, 1e-3]}, v={"knee": 1.0})
+sim.change(speed=12)
+sim.reset()
+states: list[ff.StateName] = sim.states
+lm = sim.linear_model(["damper"])
+feedback: Array = lm.B.T @ sim.values([ff.StateName(*state) for state in lm.states])
+x: Array = sim.x - sim.values(states)
+said: list[str] = sim.warnings
+category: type[Warning] = ff.RunWarning
 position: Array = state.bodies["chassis"]["position"]
 sim.restore(saved)
 

@@ -4,14 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "floatframe/core/diagnostics.hpp"
 #include "floatframe/core/json_text.hpp"
 #include "floatframe/core/suggest.hpp"
+#include "floatframe/formulation/owners.hpp"
 #include "floatframe/linear/excited_system.hpp"
 #include "floatframe/model/element_kind.hpp"
 #include "floatframe/model/element_outputs.hpp"
 #include "floatframe/model/joint_motion.hpp"
+#include "floatframe/start/system_state.hpp"
 #include "floatframe/stepping/samples.hpp"
 #include "floatframe/stepping/simulation_options.hpp"
 #include "floatframe/tangents/mass_scale.hpp"
@@ -93,6 +96,33 @@ void find_output_columns(ExcitedSystem& excited, const std::vector<double>& inpu
   }
 }
 
+/// The states of a system as names.
+std::vector<StateName> names_of_states(const Formulation& f, const LinearSystem& system) {
+  const std::vector<std::string> words = disambiguated_names(unknown_owners(f));
+  const std::vector<StateName> unknowns = unknown_names(f);
+  std::map<std::string, StateName> known;
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    StateName name = unknowns[k];
+    known.emplace(words[k], name);
+    name.rate = true;
+    known.emplace("rate of " + words[k], name);
+  }
+  std::vector<StateName> names;
+  for (const std::string& state : system.states) {
+    const auto at = known.find(state);
+    names.push_back(at != known.end() ? at->second : StateName{StateKind::combination, state});
+  }
+  return names;
+}
+
+SystemState state_of(InitialisedModel& started, InertiaMethod inertia) {
+  JointFollower joints(started.model());
+  kinematics_at(started.formulation(), started.state());
+  SystemState state = system_state(started.formulation().motion(), joints);
+  place_bodies(started.model(), inertia, state);
+  return state;
+}
+
 LinearModel linear_model_of(const Model& model, const LinearPorts& ports,
                             const SimulationDescription& options) {
   LinearModel linear;
@@ -127,7 +157,9 @@ LinearModel linear_model_of(const Model& model, const LinearPorts& ports,
     }
   LinearInputs moved;
   linear.system = linear_system_at(f, excited.state(), &motions, &moved);
+  linear.names = names_of_states(f, linear.system);
   linear.time = excited.state().t;
+  linear.state = std::make_shared<SystemState>(state_of(started, options.inertia));
   const VecX still = VecX::Zero(n);
   linear.output_values = excited.output_values(excited.outputs(still, still, still));
   for (int k = 0; k < 3; ++k) linear.B[k] = moved.B[k];
@@ -181,6 +213,20 @@ LinearModel linear_model(const Model& model, const LinearPorts& ports,
   return linear;
 }
 
+LinearModel linear_model(const Simulation& simulation, const LinearPorts& ports) {
+  Model there = simulation.model();
+  for (std::size_t k = 0; k < there.inputs.size(); ++k)
+    there.inputs[k].initial = simulation.inputs()[k];
+  SimulationDescription& d = there.simulation;
+  d = simulation.options();
+  d.coordinates = Coordinates::relative;
+  d.start = Start::state;
+  d.state = std::make_shared<SystemState>(simulation.state());
+  d.velocity.setZero();  // included in the state
+  d.offset.clear();
+  return linear_model(there, ports);
+}
+
 StateSpace state_space(const LinearModel& linear) {
   StateSpace s;
   const Eigen::Index nz = linear.system.A.rows(), ny = linear.C.rows(),
@@ -194,6 +240,7 @@ StateSpace state_space(const LinearModel& linear) {
   s.A.topLeftCorner(nz, nz) = linear.system.A;
   s.C.leftCols(nz) = linear.C;
   s.states = linear.system.states;
+  s.names = linear.names;
   s.outputs = linear.outputs;
   const char* const before[] = {"", "rate of ", "acceleration of "};
   const char* const per[] = {"", "/s", "/s2"};
@@ -209,6 +256,7 @@ StateSpace state_space(const LinearModel& linear) {
       else
         s.B(at, j) = 1.0;
       s.states.push_back(before[k] + input.name);
+      s.names.push_back({StateKind::input, input.name, k});
     }
     s.B.col(j).head(nz) = linear.B[order].col(j);
     s.D.col(j) = linear.D[order].col(j);

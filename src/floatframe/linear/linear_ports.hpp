@@ -10,9 +10,11 @@
 //   G(s) = C (s I - A)^-1 (B0 + s B1 + s^2 B2) + D0 + s D1 + s^2 D2
 // A motion due to an input at constant z is in the dependent coordinates; z itself varies with
 // u.
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "floatframe/description/state_name.hpp"
 #include "floatframe/linear/linear_system.hpp"
 #include "floatframe/run/result_table.hpp"
 
@@ -43,9 +45,11 @@ struct LinearModel {
   LinearSystem system;
   std::vector<LinearInput> inputs;
   std::vector<Column> outputs;
-  MatX B[3], C, D[3];                ///< (1)
-  double time = 0.0;                 ///< of the linearisation [s]
-  VecX input_values, output_values;  ///< there; heights of roads are relative to it
+  MatX B[3], C, D[3];                        ///< (1)
+  double time = 0.0;                         ///< of the linearisation [s]
+  VecX input_values, output_values;          ///< there; heights of roads are relative to it
+  std::vector<StateName> names;              ///< of the states z
+  std::shared_ptr<const SystemState> state;  ///< there
 };
 
 /// At the start state given by the options, as `linear_system`, with the same exceptions. Throws
@@ -53,12 +57,16 @@ struct LinearModel {
 LinearModel linear_model(const Model& model, const LinearPorts& ports = {},
                          const SimulationOptions& options = {});
 
+/// At the present state of a simulation, with its inputs as they are, in relative coordinates.
+LinearModel linear_model(const Simulation& simulation, const LinearPorts& ports = {});
+
 /// zdot = A z + B u, y = C z + D u, in changes from the point of linearisation. An input that
 /// enters by derivatives is represented by the highest of them, with its value and rate as states:
 /// "rate of road", "acceleration of motion of crank".
 struct StateSpace {
   MatX A, B, C, D;
   std::vector<std::string> states;
+  std::vector<StateName> names;  ///< the same as names
   std::vector<Column> inputs, outputs;
 };
 StateSpace state_space(const LinearModel& linear);

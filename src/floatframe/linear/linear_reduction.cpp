@@ -238,19 +238,6 @@ LinearSystem first_order(SecondOrderSystem& s, Eigen::Index heavy) {
   return out;
 }
 
-/// "joint 'ball', coordinate 2" if several have the same owner.
-std::vector<std::string> disambiguated_names(const std::vector<std::string>& owners) {
-  std::vector<std::string> names;
-  for (std::size_t k = 0; k < owners.size(); ++k) {
-    const auto same = std::count(owners.begin(), owners.end(), owners[k]);
-    const auto before =
-        std::count(owners.begin(), owners.begin() + static_cast<long>(k), owners[k]);
-    names.push_back(same == 1 ? owners[k]
-                              : fmt::format("{}, coordinate {}", owners[k], before + 1));
-  }
-  return names;
-}
-
 InputMotions no_inputs(Eigen::Index nv, Eigen::Index nc) {
   InputMotions u;
   u.value = MatX(nc, 0);
@@ -319,6 +306,18 @@ LinearSystem slowest_of(const SecondOrderSystem& s, const VecX& possible, int co
 }
 
 }  // namespace
+
+std::vector<std::string> disambiguated_names(const std::vector<std::string>& owners) {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < owners.size(); ++k) {
+    const auto same = std::count(owners.begin(), owners.end(), owners[k]);
+    const auto before =
+        std::count(owners.begin(), owners.begin() + static_cast<long>(k), owners[k]);
+    names.push_back(same == 1 ? owners[k]
+                              : fmt::format("{}, coordinate {}", owners[k], before + 1));
+  }
+  return names;
+}
 
 LinearSystem reduced_system(const SmallMotions& m, const std::vector<std::string>& owners,
                             const InputMotions* inputs, LinearInputs* response, int slowest) {

@@ -36,6 +36,10 @@ struct LinearInputs {
   MatX x, v[2], a[3];
 };
 
+/// "joint 'ball', coordinate 2" if several have the same owner: the words of coordinates in the
+/// states of a system.
+std::vector<std::string> disambiguated_names(const std::vector<std::string>& owners);
+
 /// For coordinates with these owners. Throws RunError if a direction has neither mass nor stiffness
 /// nor damping. `response` is filled if there are inputs. `slowest`: as in linear_system(), without
 /// inputs.

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "floatframe/core/plural.hpp"
+#include "floatframe/loops/least_change.hpp"
 #include "floatframe/loops/loop_path.hpp"
 #include "floatframe/loops/redundancy.hpp"
 #include "floatframe/loops/run_error.hpp"
@@ -22,18 +23,6 @@ namespace floatframe {
 namespace {
 
 using Given = TreeKinematics::Given;
-
-/// Up to this size dense linear algebra is as fast, and takes the rows in the best order.
-constexpr int few_rows = 200;
-
-/// Least weighted change x with J x = b.
-VecX least_change(const SparseRowMatrix& J, const VecX& w, const VecX& b) {
-  if (J.cols() == 0) return VecX();
-  const VecX roots = w.cwiseSqrt();
-  const SparseRowMatrix Jw = J * roots.asDiagonal();
-  if (J.rows() > few_rows) return roots.cwiseProduct(IndependentRows(Jw, 1e-11).least_norm(b));
-  return roots.cwiseProduct(LeastNorm(MatX(Jw), 1e-11).solve(b));
-}
 
 /// Coordinates that may change at a stage: 0 rigid coordinates without a start value, 1 modal
 /// amplitudes too, 2 all.

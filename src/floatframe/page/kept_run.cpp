@@ -23,7 +23,7 @@ struct KeptRun::States {
 };
 
 KeptRun run_and_keep(const Model& model, const SimulationDescription& options,
-                     const RunOptions& run_options) {
+                     const RunOptions& run_options, const Controller& controller) {
   KeptRun kept;
   kept.options = options;
   RunOptions own = run_options;
@@ -35,8 +35,21 @@ KeptRun run_and_keep(const Model& model, const SimulationDescription& options,
       if (states->layout.columns == 0) states->layout = layout;
       states->rows.insert(states->rows.end(), numbers.begin(), numbers.end());
     };
-  kept.result = run(model, options, own);
+  kept.result =
+      controller.on_step ? run(model, options, own, controller) : run(model, options, own);
   if (states->layout.columns > 0) kept.states = states;
+  return kept;
+}
+
+KeptRun keep_recording(Recording& recording) {
+  KeptRun kept;
+  kept.result = recording.result();
+  kept.options = recording.options();
+  if (recording.instants() == 0) return kept;
+  const auto states = std::make_shared<KeptRun::States>();
+  states->layout = recording.layout();
+  states->rows = recording.states();
+  kept.states = states;
   return kept;
 }
 

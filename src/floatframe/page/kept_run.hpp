@@ -7,7 +7,8 @@
 
 #include "floatframe/description/model_source.hpp"
 #include "floatframe/model/model.hpp"
-#include "floatframe/run/run.hpp"
+#include "floatframe/run/controlled_run.hpp"
+#include "floatframe/run/recording.hpp"
 
 namespace floatframe {
 
@@ -24,7 +25,10 @@ struct KeptRun {
 /// As `run`, with the states of the run according to `record` of its description (recorded if it is
 /// not given). `run_options.rows` and `.states` are overwritten.
 KeptRun run_and_keep(const Model& model, const SimulationDescription& options,
-                     const RunOptions& run_options = {});
+                     const RunOptions& run_options = {}, const Controller& controller = {});
+
+/// What a recording has so far.
+KeptRun keep_recording(Recording& recording);
 
 /// results.csv, states.ffr, report.html and summary.json in a folder, which is created if
 /// necessary. Files of an earlier run are replaced. Throws InputError if another process writes to

@@ -50,14 +50,32 @@ RunSummary failed_summary(const std::string& model, const SimulationDescription&
   return s;
 }
 
-RunResult run(const Model& given, const SimulationDescription& o, const RunOptions& run_options) {
+namespace {
+
+void require_run(const Model& given, const SimulationDescription& o) {
   require_valid_run(o);
   check_step(o);
   const SharedFormula& built_with = given.simulation.until;
   if (o.until && (!given.until || !built_with || o.until->text != built_with->text))
     throw InputError(ErrorCode::contradiction, o.origin.of("until"),
                      "simulation.until: found a formula that the model was not built with");
+}
+
+}  // namespace
+
+RunResult run(const Model& given, const SimulationDescription& o, const RunOptions& run_options) {
+  require_run(given, o);
   return Run(given, o, run_options).result();
+}
+
+RunResult run(const Model& given, const SimulationDescription& o, const RunOptions& run_options,
+              const Controller& controller) {
+  require_run(given, o);
+  if (run_options.checkpoint || run_options.resume)
+    throw InputError(ErrorCode::contradiction,
+                     "on_step: found a run with checkpoints, which do not hold what a program "
+                     "remembers, expected one without");
+  return Run(given, o, run_options, &controller).result();
 }
 
 }  // namespace floatframe

@@ -15,14 +15,17 @@
 #include "floatframe/run/run_memory.hpp"
 #include "floatframe/run/run_watch.hpp"
 #include "floatframe/run/state_layout.hpp"
+#include "floatframe/run/step_control.hpp"
 #include "floatframe/run/step_times.hpp"
+#include "floatframe/run/summary_ends.hpp"
 #include "floatframe/stepping/stepper.hpp"
 
 namespace floatframe {
 
 class Run {
  public:
-  Run(const Model& given, const SimulationDescription& o, const RunOptions& options)
+  Run(const Model& given, const SimulationDescription& o, const RunOptions& options,
+      const Controller* controller = nullptr)
       : o_(o),
         options_(options),
         steps_(given, o, {.duration = o.duration, .until = o.until != nullptr}),
@@ -31,14 +34,8 @@ class Run {
         checkpoint_every_(options.checkpoint && options.checkpoint_every > 0.0
                               ? std::max(1L, std::lround(options.checkpoint_every / o.step))
                               : 0) {
-    RunSummary& s = result_.summary;
-    s = asked_summary(steps_.model().name, o);
-    s.start = steps_.start_report();
-    const Energies e = steps_.energies();
-    s.energy.kinetic_start = e.kinetic;
-    s.energy.potential_start = e.potential;
-    s.energy.elastic_start = e.elastic;
-    s.energy.total_start = e.total();
+    result_.summary = summary_at_start(steps_, o);
+    if (controller && controller->on_step) control_.emplace(steps_, *controller);
     prepare_table();
     if (options.keep_state) joints_.emplace(steps_.model());
     if (options.record && options.watch)
@@ -99,7 +96,10 @@ class Run {
 
   void sample() noexcept {
     ResultTable& table = result_.table;
-    steps_.sample(block_ ? block_->next() : table.data.data() + table.columns.size() * rows_++);
+    double* const row =
+        block_ ? block_->next() : table.data.data() + table.columns.size() * rows_++;
+    steps_.sample(row);
+    if (control_) control_->sampled(row);
   }
 
   /// The law of a program has thrown in the sample.
@@ -143,6 +143,7 @@ class Run {
   bool step() {
     RunSummary& s = result_.summary;
     const long k = made_ + 1;
+    if (control_) control_->before_step(made_);
     const Nanoseconds before = thread_cpu_clock();
     const PlannedStep planned = steps_.grid().next();
     bool good = steps_.advance(planned);
@@ -238,22 +239,12 @@ class Run {
     if (block_ || state_block_) flush();
     RunSummary& s = result_.summary;
     result_.table.data.resize(rows_ * result_.table.columns.size());
-    s.StepCounters::operator=(steps_.counters());
-    s.duration = steps_.state().t - steps_.begin();
     if (steps_.ended()) s.crossed_at = steps_.state().t;
-    s.real_time_factor = s.cpu > 0.0 ? s.duration / s.cpu : 0.0;
     s.step_times = step_times(step_times_);
-    const Energies e = steps_.energies();
-    s.energy.kinetic_end = e.kinetic;
-    s.energy.potential_end = e.potential;
-    s.energy.elastic_end = e.elastic;
-    s.energy.total_end = e.total();
+    write_end(steps_, steps_.begin(), s);
     if (joints_) result_.state = std::make_shared<SystemState>(steps_.system_state(*joints_));
     if (watch_) finish_watch(s);
-    if (std::string why = steps_.undefined_outputs(); !why.empty())
-      s.warnings.push_back({RangeLimit::formula, std::move(why)});
-    if (std::string why = steps_.crowded_edges(); !why.empty())
-      s.warnings.push_back({RangeLimit::edges, std::move(why)});
+    warn_of_steps(steps_, s.warnings);
   }
 
   void finish_watch(RunSummary& s) {
@@ -281,6 +272,7 @@ class Run {
   double* state_row_ = nullptr;          ///< its row without health columns yet
   std::optional<JointFollower> joints_;
   std::optional<RunWatch> watch_;
+  std::optional<StepControl> control_;
 };
 
 }  // namespace floatframe

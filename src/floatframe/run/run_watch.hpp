@@ -49,6 +49,25 @@ class RunWatch {
     watch_.start(motion);
   }
 
+  /// Where steps go on from another state: the balance begins anew, what left the range is kept.
+  void start_again(const State& s) noexcept {
+    balance_ = EnergyBalance();
+    start(s);
+  }
+  /// Up to the last check, by the numbers alone.
+  EnergySummary balance() const noexcept {
+    EnergySummary out;
+    out.balanced = true;
+    balance_.write(out);
+    return out;
+  }
+  /// With this balance; allocates.
+  std::vector<RangeWarning> range_warnings(double spectral_radius,
+                                           std::span<const TimeCorner> corners) const {
+    return watch_.range().warnings(balance(), spectral_radius, corners);
+  }
+  const RangeLimits& limits() const noexcept { return watch_.range().limits(); }
+
   /// To be called after a step; `sampled`: outputs were evaluated at its end.
   void step(const State& s, const VecX& reactions, bool sampled, bool full) noexcept {
     if (!sampled) {

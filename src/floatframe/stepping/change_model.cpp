@@ -1,6 +1,8 @@
 // A simulation that goes on with another model of the same structure.
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "floatframe/model/model_hash.hpp"
 #include "floatframe/stepping/same_structure.hpp"
 #include "floatframe/stepping/stepping_engine.hpp"
@@ -43,6 +45,7 @@ Stepper::Stepper(const Model& changed, const SimulationDescription& options, con
                                           .all = before.locator_.has_value()})
                        .located);
   begin_at_start(before.locator_.has_value());
+  fit_start();
   set_edge_watch(before.watch_);
   StepperMemory now = before.memory();
   if (now.outputs.size() != outputs_.size() || now.inputs.size() != inputs_.size())
@@ -57,6 +60,14 @@ Stepper::Stepper(const Model& changed, const SimulationDescription& options, con
   watch_(state_, integrator_->reactions());
 }
 
+/// Accelerations and multipliers of the start with the new forces, where `restart` returns to.
+void Stepper::fit_start() {
+  f_.set_inputs(first_.inputs);
+  hold_branches();
+  integrator_->restart_in_course(state_, grid_.step());
+  first_ = memory();
+}
+
 bool Simulation::Engine::steps_as(const Model& other) {
   if (failed_)
     throw InputError(ErrorCode::step_failed,
@@ -69,6 +80,7 @@ Simulation::Engine::Engine(const Model& changed, Engine& before)
     : model_(changed), o_(before.o_), steps_(model_, o_, before.steps_), joints_(steps_.model()) {
   name_owners();
   joints_.restore(before.joints_.numbers(), before.joints_.time());
+  first_joints_ = before.first_joints_;
   // Nothing throws from here on. Moved, the numbers stay where programs have seen them.
   row_ = std::move(before.row_);
   row_before_ = std::move(before.row_before_);
@@ -76,6 +88,7 @@ Simulation::Engine::Engine(const Model& changed, Engine& before)
   wanted_ = std::move(before.wanted_);
   input_owners_ = std::move(before.input_owners_);
   callback_ = std::move(before.callback_);
+  observer_ = std::exchange(before.observer_, nullptr);
   last_ = before.last_;
   last_.where = {};
   inputs_to_formulation();

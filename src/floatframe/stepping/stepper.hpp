@@ -132,6 +132,7 @@ class Stepper {
 
  private:
   void begin_at_start(bool locate_edges);
+  void fit_start();
   void find_corners(const SimulationDescription& options, const StepLimits& limits);
   void locate_corners(const std::vector<TimeCorner>& corners);
   void prepare_reactions();

@@ -62,6 +62,13 @@ SystemState Simulation::state() const {
   return engine_->state();
 }
 
+std::vector<double> Simulation::state_values(std::span<const StateName> names) const {
+  return engine_->state_values(names);
+}
+void Simulation::set_state(std::span<const GivenState> given) { engine_->set_state(given); }
+void Simulation::reset() { engine_->reset(); }
+void Simulation::observe(StepObserver* observer) { engine_->observe(observer); }
+
 std::vector<std::string> Simulation::input_names() const { return names_of(model().inputs); }
 std::span<const double> Simulation::inputs() const noexcept { return engine_->inputs(); }
 void Simulation::set_input(std::string_view name, double value) {
@@ -87,7 +94,9 @@ SimulationState Simulation::save() const { return engine_->save(); }
 void Simulation::restore(const SimulationState& state) { engine_->restore(state); }
 void Simulation::change_model(const Model& changed) {
   engine_->require_idle("change_model");
-  if (!engine_->steps_as(built(changed))) engine_ = std::make_unique<Engine>(changed, *engine_);
+  if (engine_->steps_as(built(changed))) return;
+  engine_ = std::make_unique<Engine>(changed, *engine_);
+  engine_->begin_observation(StepsBegin::changed);
 }
 
 }  // namespace floatframe

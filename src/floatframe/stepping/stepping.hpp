@@ -23,6 +23,7 @@
 #include <string_view>
 #include <vector>
 
+#include "floatframe/description/state_name.hpp"
 #include "floatframe/description/system_state.hpp"
 #include "floatframe/loops/start_report.hpp"
 #include "floatframe/model/model.hpp"
@@ -30,6 +31,8 @@
 #include "floatframe/stepping/step_report.hpp"
 
 namespace floatframe {
+
+class StepObserver;
 
 /// Each option that is set replaces the one in `model.simulation`.
 struct SimulationOptions {
@@ -61,9 +64,9 @@ class Simulation {
   const SimulationDescription& options() const noexcept;
   const StartReport& start_report() const noexcept;
 
-  /// One step of the size of the options, in substeps if necessary. Does not allocate. After a
-  /// failed step, time and outputs are those of the last accepted step; further steps have no
-  /// effect until `restore`.
+  /// One step of the size of the options, in substeps if necessary. Does not allocate, but for a
+  /// recording that grows. After a failed step, time and outputs are those of the last accepted
+  /// step; further steps have no effect until `restore`, `set_state` or `reset`.
   StepReport step() noexcept;
   /// One step of another size [s]. Steps of the default size continue from its end.
   StepReport step(double size) noexcept;
@@ -77,6 +80,18 @@ class Simulation {
   /// Coordinates and velocities by the names of joints and bodies: the content of a state file,
   /// from which either formulation can start, but not bit for bit.
   SystemState state() const;
+
+  /// The present values of these coordinates, amplitudes, states of elements or rates, as `state`
+  /// has them, without its cost. Throws InputError for a name that the model does not have.
+  std::vector<double> state_values(std::span<const StateName> names) const;
+  /// Sets coordinates and amplitudes or their rates at the present time: what is given is met, all
+  /// else changes as little as the loops need. States of elements and inputs stay. Steps go on also
+  /// where one had failed. Takes as long as a start; `restore` and `reset` take less than a step.
+  /// Throws InputError for a name that the model does not have, RunError with the remaining gap if
+  /// the loops do not close; nothing is changed then.
+  void set_state(std::span<const GivenState> given);
+  /// Returns to the start: its time, state, inputs and counters.
+  void reset();
 
   /// In the order of `model().inputs`, and their present values.
   std::vector<std::string> input_names() const;
@@ -121,6 +136,9 @@ class Simulation {
   /// old model, states saved from now on to the new one. Allocates. Throws InputError, and changes
   /// nothing, for a model of another structure, after a failed step and during the force callback.
   void change_model(const Model& changed);
+
+  /// For a Recording, one at a time; null: none. Throws InputError if there is one.
+  void observe(StepObserver* observer);
 
  private:
   class Engine;

@@ -39,6 +39,7 @@ Simulation::Engine::Engine(const Model& model, const SimulationDescription& opti
   wanted_ = inputs_;
   name_owners();
   sample();
+  first_joints_ = joints_.numbers();
 }
 
 void Simulation::Engine::name_owners() {
@@ -113,6 +114,8 @@ StepReport Simulation::Engine::make(const PlannedStep& step) noexcept {
     if (const StepStatus s = call_back(where); s != StepStatus::completed) return refused(s, where);
   }
   const StepCounters before = counters();
+  const bool timed = observer_ && observer_->timed();
+  const Nanoseconds begun = timed ? thread_cpu_clock() : 0;
   bool good = steps_.advance(step);
   if (good) {
     if (steps_.may_throw()) row_before_ = row_;
@@ -131,10 +134,14 @@ StepReport Simulation::Engine::make(const PlannedStep& step) noexcept {
   last_.position_violation = steps_.last().position_violation;
   last_.velocity_violation = steps_.last().velocity_violation;
   last_.time = time();
-  if (good) return last_;
+  if (good) {
+    if (observer_) observer_->step(steps_, row_, step, timed ? thread_cpu_clock() - begun : 0);
+    return last_;
+  }
   failed_ = true;
   sentence_.clear();
   explain(last_);
+  if (observer_) observer_->failed(steps_);
   return last_;
 }
 

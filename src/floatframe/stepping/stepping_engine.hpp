@@ -4,6 +4,7 @@
 
 #include "floatframe/model/input_value.hpp"
 #include "floatframe/stepping/simulation_memory.hpp"
+#include "floatframe/stepping/step_observer.hpp"
 #include "floatframe/stepping/stepper.hpp"
 #include "floatframe/stepping/stepping.hpp"
 
@@ -14,6 +15,9 @@ class Simulation::Engine {
   Engine(const Model& model, const SimulationDescription& options);
   /// Goes on where `before` is, with a model of the same structure; takes its numbers over.
   Engine(const Model& changed, Engine& before);
+  ~Engine() {
+    if (observer_) observer_->end();
+  }
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
@@ -35,6 +39,12 @@ class Simulation::Engine {
   void on_force(ForceCallback callback);
   SimulationState save();
   void restore(const SimulationState& state);
+  std::vector<double> state_values(std::span<const StateName> names);
+  void set_state(std::span<const GivenState> given);
+  void reset();
+  void observe(StepObserver* observer);
+  /// Tells the observer where steps go on from.
+  void begin_observation(StepsBegin why);
   /// True if no step of the other model differs from those of this one.
   bool steps_as(const Model& other);
   /// Throws InputError while the force callback runs.
@@ -56,6 +66,12 @@ class Simulation::Engine {
   /// The end of a report about a step that failed.
   void explain(StepReport& report) const noexcept;
   void inputs_to_formulation() noexcept { steps_.formulation().set_inputs(inputs_); }
+  /// Steps may go on.
+  void go_on() {
+    failed_ = false;
+    last_ = StepReport();
+    sentence_.clear();
+  }
 
   const Model model_;
   const SimulationDescription o_;
@@ -73,6 +89,8 @@ class Simulation::Engine {
   double refused_value_ = 0.0;  ///< step size or value of an input
   std::exception_ptr thrown_;
   std::string sentence_, fingerprint_;
+  std::vector<double> first_joints_;  ///< numbers of `joints_` at the start
+  StepObserver* observer_ = nullptr;
 };
 
 }  // namespace floatframe

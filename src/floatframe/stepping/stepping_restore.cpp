@@ -117,9 +117,8 @@ void Simulation::Engine::restore(const SimulationState& state) {
   steps_.set_memory(given.steps);
   joints_.restore(given.joints, given.joints_time);
   inputs_to_formulation();
-  failed_ = false;
-  last_ = StepReport();
-  sentence_.clear();
+  go_on();
+  begin_observation(StepsBegin::again);
 }
 
 }  // namespace floatframe
