@@ -27,9 +27,9 @@ nb::dict arrays_of(const std::vector<VtkArray>& arrays) {
 
 /// A scene with the model that it draws.
 struct Scene {
-  Scene(std::shared_ptr<const LoadedModel> of, const std::string& bytes, const std::string& name)
+  Scene(std::shared_ptr<LoadedModel> of, const std::string& bytes, const std::string& name)
       : model(std::move(of)), scene(*model, StateHistory::of_bytes(bytes, name)) {}
-  std::shared_ptr<const LoadedModel> model;
+  std::shared_ptr<LoadedModel> model;
   RunScene scene;
 };
 
@@ -65,7 +65,7 @@ void bind_scene(nb::module_& m) {
   nb::class_<Scene>(m, "Scene")
       .def(
           "__init__",
-          [](Scene* self, const std::shared_ptr<const LoadedModel>& model, const nb::bytes& states,
+          [](Scene* self, const std::shared_ptr<LoadedModel>& model, const nb::bytes& states,
              const std::string& name) {
             const std::string bytes(states.c_str(), states.size());
             Unlocked released;
