@@ -25,7 +25,8 @@ class RunScene:
         import pyvista
 
         instant = self._core.instants - 1 if time is None else self._core.nearest(number("time", time))
-        points, point_data, connectivity, ends, types, cell_data, texts, t = self._core.at(instant)
+        made: tuple[Any, ...] = self._core.at(instant)
+        points, point_data, connectivity, ends, types, cell_data, texts, t = made
         if self._cells is None:
             starts = np.concatenate([[0], ends[:-1]]) if len(ends) else ends
             self._cells = np.insert(connectivity.astype(np.int64), starts, np.diff(ends, prepend=0))

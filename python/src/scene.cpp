@@ -17,8 +17,8 @@ nb::object copied(const std::vector<T>& v, std::size_t columns) {
   return nb::cast(nb::ndarray<nb::numpy, T>(numbers, columns > 1 ? 2 : 1, shape.data(), owner));
 }
 
-nb::dict arrays_of(const std::vector<VtkArray>& arrays) {
-  nb::dict out;
+Keywords arrays_of(const std::vector<VtkArray>& arrays) {
+  Keywords out;
   for (const VtkArray& a : arrays)
     out[a.name.c_str()] = std::visit(
         [&](const auto& values) { return copied(values, std::size_t(a.components)); }, a.values);
@@ -34,17 +34,18 @@ struct Scene {
 };
 
 /// Points, arrays of points, connectivity, ends and types of the cells, arrays of cells, texts.
-nb::tuple grid_at(Scene& s, std::size_t instant) {
+std::tuple<nb::object, Keywords, nb::object, nb::object, nb::object, Keywords, Keywords, double>
+grid_at(Scene& s, std::size_t instant) {
   const VtkGrid* grid = nullptr;
   {
     Unlocked released;
     grid = &s.scene.at(instant);
   }
-  nb::dict texts;
+  Keywords texts;
   for (const auto& [name, words] : grid->texts) texts[name.c_str()] = words;
-  return nb::make_tuple(copied(grid->points, 3), arrays_of(grid->point_data),
-                        copied(grid->connectivity, 1), copied(grid->offsets, 1),
-                        copied(grid->types, 1), arrays_of(grid->cell_data), texts, grid->time);
+  return std::make_tuple(copied(grid->points, 3), arrays_of(grid->point_data),
+                         copied(grid->connectivity, 1), copied(grid->offsets, 1),
+                         copied(grid->types, 1), arrays_of(grid->cell_data), texts, grid->time);
 }
 
 }  // namespace
