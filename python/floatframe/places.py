@@ -45,7 +45,7 @@ class Place:
         return {
             "way": self.way,
             "values": {key: _value(f"{label}: {key}", key, value) for key, value in self.values.items() if value is not None},
-            "at": None if self.at is None else _vector(f"{label}: at", self.at),
+            "at": None if self.at is None else vector(f"{label}: at", self.at),
             "type": text(f"{label}: type", self.type),
             "dofs": text(f"{label}: dofs", self.dofs),
             "residual": self.residual,
@@ -53,19 +53,21 @@ class Place:
         }
 
 
-def _vector(name: str, value: object) -> tuple[float, float, float]:
+def vector(name: str, value: object) -> tuple[float, float, float]:
+    """Three finite numbers."""
     x, y, z = numbers(name, value, 3).tolist()
     return x, y, z
 
 
-def _direction(name: str, value: object) -> tuple[float, float, float]:
+def direction(name: str, value: object) -> tuple[float, float, float]:
+    """ "x", "-z", ... or a vector that is not zero."""
     if isinstance(value, str):
         sign = -1.0 if value.startswith("-") else 1.0
         letter = value.removeprefix("-")
         if len(letter) != 1 or letter not in "xyz":
             raise InputError(f"{name}: found '{value}', expected x, y, z, -x, -y, -z or a vector")
         return (sign * (letter == "x"), sign * (letter == "y"), sign * (letter == "z"))
-    v = _vector(name, value)
+    v = vector(name, value)
     if not any(v):
         raise InputError(f"{name}: found a vector of length zero, expected a direction")
     return v
@@ -79,12 +81,12 @@ def _value(name: str, key: str, value: object) -> object:
             raise InputError(f"{name}: found {value!r}, expected the number of a node")
         return int(value)
     if key in ("axis", "normal"):
-        return _direction(name, value)
+        return direction(name, value)
     if key in ("radius", "length"):
         return number(name, value, positive=True)
     if key == "nodes":
         return value
-    return _vector(name, value)
+    return vector(name, value)
 
 
 def set_(

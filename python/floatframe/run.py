@@ -9,12 +9,14 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Union
 
-from . import _core
+from . import _core, result_files
 from .arrays import path
-from .errors import OutputError, UnknownNameError, tell
-from .model import Model, built
+from .errors import InputError, OutputError, UnknownNameError, tell
+from .model import Model, built, part_cache
 from .progress import Bar
 from .options import Array, Options, as_dict
+from .saved import ModelOfRun, SavedRun, read_run
+from .scene import RunScene
 
 if TYPE_CHECKING:
     import pandas
@@ -29,23 +31,52 @@ Controller = Callable[[float, Array, Array], Union[Mapping[str, float], None]]
 class Result(Mapping[str, Array]):
     """Result of a run: samples of its outputs and a summary.
 
-    `res["chassis.z"]` is the array of an output, shape (samples,), unit `res.units["chassis.z"]`. Arrays share the memory of
-    the result and keep it alive.
+    `res["chassis.z"]` is the array of an output, shape (samples,), unit `res.units["chassis.z"]`; `res["chassis"]` that of its
+    components x, y, z (or roll, pitch, yaw), shape (samples, 3). Arrays share the memory of the result and keep it alive.
+    Results are pickled with their states, without their page.
     """
 
-    def __init__(self, core: _core.Run, model: Model) -> None:
+    def __init__(self, core: _core.Run | SavedRun, model: Model | None, find: Callable[[], Model] | None = None) -> None:
         self._core = core
-        self._model = model.copy()
-        self.name = model.name
-        """Name of the model."""
+        self._model = None if model is None else model.copy()
+        self._find = find  # the model of a result that was loaded
+        self._scene: RunScene | None = None
         columns = core.columns
         self.units: dict[str, str] = dict(columns)
         """Units by column name; "time" is the first."""
         self.table: Array = core.table
         """All samples, shape (samples, columns): time, then the outputs in their order."""
         self._column = {name: k for k, (name, _) in enumerate(columns)}
+        self._vectors = result_files.vector_names(self._column)
         self.summary: dict[str, Any] = json.loads(core.summary_json)
         """Content of `summary.json` of the command line: status, steps, iterations, energies, violations, warnings."""
+        self.name = model.name if model is not None else str(self.summary.get("model", ""))
+        """Name of the model."""
+
+    @classmethod
+    def load(cls, folder: str | os.PathLike[str], *, model: Model | None = None) -> Result:
+        """The result that `save` or `floatframe run` has written to a folder. model: of the run, for pictures; by default it is
+        loaded from its file, when it is needed. Raises InputError.
+
+        >>> res = ff.Result.load("out/vehicle")
+        """
+        where = path("folder", folder)
+        if model is not None and not isinstance(model, Model):
+            raise InputError(f"model: found {type(model).__name__}, expected a floatframe.Model")
+        saved = read_run(where)
+        try:
+            return cls(saved, model, ModelOfRun(os.path.abspath(where), saved.states))
+        except json.JSONDecodeError as error:
+            raise InputError(f"{os.path.join(where, 'summary.json')}: found no summary of a run: {error}") from None
+
+    @property
+    def model(self) -> Model:
+        """The model of the run, as it was then."""
+        if self._model is None:
+            if self._find is None:
+                raise InputError(f"the model of '{self.name}' is not known")
+            self._model = self._find()
+        return self._model
 
     @property
     def time(self) -> Array:
@@ -53,9 +84,17 @@ class Result(Mapping[str, Array]):
         return self.table[:, 0]
 
     def __getitem__(self, name: str) -> Array:
-        if name not in self._column:
-            raise UnknownNameError(f"found no output '{name}', expected one of {', '.join(self._column)}")
-        return self.table[:, self._column[name]]
+        if name in self._column:
+            return self.table[:, self._column[name]]
+        if name in self._vectors:
+            return result_files.columns_of(self.table, self._vectors[name])
+        raise UnknownNameError(f"found no output '{name}', expected one of {', '.join([*self._column, *self._vectors])}")
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._column or name in self._vectors
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return [*self._column, *self._vectors]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._column)
@@ -77,26 +116,41 @@ class Result(Mapping[str, Array]):
 
     def save(self, folder: str | os.PathLike[str]) -> str:
         """Writes results.csv, states.ffr, report.html and summary.json into a folder, as `floatframe run --out` does; all
-        commands for results can read these. A model made in Python is written to the same folder (model.yaml); if it refers to
-        files, commands need a copy of it next to them: `--model`. Returns the folder."""
+        commands for results can read these. A model made or changed in Python is written to the same folder: model.yaml, with a body
+        file for each Part in it; other files that it refers to stay where they are. Returns the folder."""
         where = path("folder", folder)
-        model, file = self._model.core, self._model.file
-        if self._model.file.endswith("<model>"):
+        if isinstance(self._core, SavedRun):
+            self._core.save(None, where, "")
+            return where
+        model, file = self.model.core, self.model.file
+        if file.endswith("<model>"):
             model, file = self._written(where, model)
         self._core.save(model, where, file)
         return where
 
     def _written(self, folder: str, model: _core.LoadedModel) -> tuple[_core.LoadedModel, str]:
-        """Writes a model file next to the results for a model without one; if it names no files, the results refer to it."""
-        file = os.path.join(folder, "model.yaml")
-        try:
-            os.makedirs(folder, exist_ok=True)
-            Path(file).write_text(self._model.to_yaml(), encoding="utf-8")
-        except OSError as error:
-            raise OutputError(f"the model of the run cannot be written: {error}") from None
-        if len(model.files) > 1 or self._model.functions:
-            return model, self._model.file
-        return _core.load_model(file, list(self._model.parameters.items())), file
+        """Writes the model next to the results, which then refer to it. One with functions, which no file holds, is written to be
+        read by people."""
+        file = self.model._save(os.path.join(folder, "model.yaml"))
+        if self.model.functions:
+            return model, self.model.file
+        with part_cache(os.path.dirname(os.path.abspath(self.model.file))):
+            return _core.load_model(file, list(self.model.parameters.items())), file
+
+    def to_mat(self, file: str | os.PathLike[str]) -> str:
+        """Writes a file of MATLAB (needs scipy): `table`, shape (samples, columns), `names` and `units` of its columns, `model`,
+        `summary` as JSON. Returns the path."""
+        return result_files.to_mat(self, file)
+
+    def to_hdf5(self, file: str | os.PathLike[str]) -> str:
+        """Writes a file of HDF5 (needs h5py): a dataset for each column, with the attribute `unit`; `model` and `summary` (JSON) as
+        attributes of the file. Returns the path."""
+        return result_files.to_hdf5(self, file)
+
+    def to_parquet(self, file: str | os.PathLike[str]) -> str:
+        """Writes a file of Parquet (needs pyarrow): a column for each output and the time, with `unit` in its metadata. Returns the
+        path."""
+        return result_files.to_parquet(self, file)
 
     def plot(self, names: Sequence[str] | str | None = None, *, axes: Any = None) -> Any:
         """Curves of outputs over the time by matplotlib, one plot per unit; returns the axes, shape (units,). names: None for
@@ -113,28 +167,34 @@ class Result(Mapping[str, Array]):
             self.save(folder)
             page = Path(folder, "report.html")
             if not page.exists():
-                raise OutputError("there is no page to view: this library was built without it (Node 18 or later with npm)")
+                why = "a result that was unpickled has none" if isinstance(self._core, SavedRun) else "this library was built without it (Node 18 or later with npm)"
+                raise OutputError(f"there is no page to view: {why}")
             return Page(page.read_text(encoding="utf-8"), height)
 
     def to_pyvista(self, time: float | None = None) -> pyvista.UnstructuredGrid:
         """The bodies at the recorded instant nearest to `time` [s] (None: the last), with their positions and deformations, for
-        pictures; needs pyvista. Point data "displacement" [m] from the design, "deformation", "velocity", and for parts with
+        pictures and animations; needs pyvista. Point data "displacement" [m] from the design, "deformation", "velocity", and for parts with
         stress data "von_mises" [Pa]; cell data "body" (docs/export.md)."""
-        from .scene import scene
-
-        return scene(self, self._model, time)
+        result_files.module("pyvista", "to_pyvista")
+        if self._scene is None:
+            self._scene = result_files.scene_of(self)
+        return self._scene.at(time)
 
     @property
     def state(self) -> _core.State | None:
         """State at the end of the run, as the start of another: `ff.run(model, start=res.state)`."""
         return self._core.state
 
-    def __reduce_ex__(self, protocol: object) -> str:
-        raise TypeError("a result is not copied or pickled; save() writes its files, to_pandas() is a table of its own")
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Result, (result_files.saved_run(self), self._model, self._find)
+
+    def _repr_html_(self) -> str:
+        return result_files.as_html(self)
 
     def __repr__(self) -> str:
-        found = [limit for limit, _ in self._core.warnings]
-        said = f", {len(found)} warning{'s' if len(found) > 1 else ''}: {', '.join(found)}" if found else ""
+        count = len(self.summary.get("warnings") or ())
+        limits = "" if isinstance(self._core, SavedRun) else ": " + ", ".join(limit for limit, _ in self._core.warnings)
+        said = f", {count} warning{'s' if count > 1 else ''}{limits}" if count else ""
         why = f": {self.summary['message']}" if self.summary["status"] == "failed" else ""
         return f"<floatframe.Result of '{self.name}': {len(self.table)} samples, {self.summary['status']}{why}{said}>"
 

@@ -1,50 +1,41 @@
-"""Results as meshes of pyvista, by the engine of `floatframe export`."""
+"""The bodies of a run as meshes of pyvista."""
 
 from __future__ import annotations
 
-import os
-import subprocess
-import tempfile
-from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from . import _core
 from .arrays import number
-from .build import program
-from .errors import ErrorEntry, InputError
 
 if TYPE_CHECKING:
     import pyvista
 
-    from .model import Model
-    from .run import Result
 
+class RunScene:
+    """Grids of a run at its recorded instants. Cells are the same at all of them."""
 
-def scene(result: Result, model: Model, time: float | None) -> pyvista.UnstructuredGrid:
-    """All bodies of a run at the recorded instant nearest to `time` [s]; None: the last."""
-    import pyvista
+    def __init__(self, core: _core.Scene) -> None:
+        self._core = core
+        self._cells: Any = None
 
-    instants = result.time
-    wanted = instants[-1] if time is None else number("time", time)
-    instant = float(instants[np.argmin(np.abs(instants - wanted))])
-    with tempfile.TemporaryDirectory() as folder:
-        run = result.save(os.path.join(folder, "run"))
-        margin = 1e-9 * max(1.0, abs(instant))
-        arguments = [program(), "export", run, "--vtk", os.path.join(folder, "vtk")]
-        arguments += ["--from", repr(instant - margin), "--to", repr(instant + margin)]
-        if model.filled_in or model.file.endswith("<model>"):
-            arguments += ["--model", _beside(model, folder)]
-        done = subprocess.run(arguments, capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            lines = [line.removeprefix("floatframe: ") for line in done.stderr.strip().splitlines()]
-            raise InputError([ErrorEntry("", 0, 0, line) for line in lines or ["the run cannot be shown"]])
-        (file,) = Path(folder, "vtk").glob("**/*.vtu")
-        return pyvista.UnstructuredGrid(str(file))
+    def at(self, time: float | None) -> pyvista.UnstructuredGrid:
+        """The recorded instant nearest to `time` [s]; None: the last."""
+        import pyvista
 
-
-def _beside(model: Model, folder: str) -> str:
-    """Writes a model file for a model without one."""
-    path = Path(folder, "model.yaml")
-    path.write_text(model.to_yaml(), encoding="utf-8")
-    return str(path)
+        instant = self._core.instants - 1 if time is None else self._core.nearest(number("time", time))
+        made: tuple[Any, ...] = self._core.at(instant)
+        points, point_data, connectivity, ends, types, cell_data, texts, t = made
+        if self._cells is None:
+            starts = np.concatenate([[0], ends[:-1]]) if len(ends) else ends
+            self._cells = np.insert(connectivity.astype(np.int64), starts, np.diff(ends, prepend=0))
+        grid = pyvista.UnstructuredGrid(self._cells, types, points)
+        for name, values in point_data.items():
+            grid.point_data.set_array(values, name)
+        for name, values in cell_data.items():
+            grid.cell_data.set_array(values, name)
+        for name, words in texts.items():
+            grid.field_data.set_array(words, name)
+        grid.field_data.set_array([t], "TimeValue")
+        return grid

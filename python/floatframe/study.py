@@ -158,13 +158,13 @@ def _options(
 
 
 def _model_file(model: Model, folder: str) -> list[str]:
-    """Writes a model that is not from a file to a file; its relative file names refer to its folder."""
+    """Writes a model that is not from a file to a file, with what it refers to."""
     if not model.file.endswith("<model>"):
         return [model.file]
     try:
         os.makedirs(folder, exist_ok=True)
         file = Path(folder, "model.yaml")
-        file.write_text(model.to_yaml(), encoding="utf-8")
+        model._save(str(file), absolute=True)
     except OSError as error:
         raise OutputError(f"the model of the study cannot be written: {error}") from None
     return [str(file), "--files-in", os.path.dirname(os.path.abspath(model.file))]

@@ -35,6 +35,7 @@ void bind_mesh(nb::module_& m);
 void bind_part(nb::module_& m);
 void bind_road(nb::module_& m);
 void bind_fmu(nb::module_& m);
+void bind_scene(nb::module_& m);
 
 inline bool is_array(PyObject* object) { return nb::ndarray_check(nb::handle(object)); }
 /// Python objects, named by their type in stubs.

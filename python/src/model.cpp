@@ -34,6 +34,34 @@ LoadedModel loaded(const std::function<ModelDescription(ModelSource&)>& read) {
   return out;
 }
 
+/// Plain Python data; a key without a value is None.
+nb::object python_of(const ModelValue& v) {
+  switch (v.kind) {
+    case ModelValue::Kind::nothing:
+      return nb::none();
+    case ModelValue::Kind::truth:
+      return nb::bool_(v.truth);
+    case ModelValue::Kind::whole:
+      return nb::int_(v.whole);
+    case ModelValue::Kind::number:
+      return nb::float_(v.number);
+    case ModelValue::Kind::text:
+      return nb::str(v.text.c_str(), v.text.size());
+    case ModelValue::Kind::list: {
+      nb::list list;
+      for (const ModelValue& item : v.items) list.append(python_of(item));
+      return list;
+    }
+    case ModelValue::Kind::map: {
+      nb::dict map;
+      for (std::size_t k = 0; k < v.items.size(); ++k)
+        map[nb::str(v.keys[k].c_str(), v.keys[k].size())] = python_of(v.items[k]);
+      return map;
+    }
+  }
+  return nb::none();
+}
+
 }  // namespace
 
 void bind_model(nb::module_& m) {
@@ -77,6 +105,12 @@ void bind_model(nb::module_& m) {
         });
       },
       nb::arg("text"), nb::arg("path"), nb::arg("parameters"), nb::arg("functions"));
+  m.def(
+      "model_values",
+      [](const std::string& text, const std::string& file) {
+        return python_of(model_values(text, file));
+      },
+      nb::arg("text"), nb::arg("file"));
   m.def(
       "load_model",
       [](const std::string& path, const std::vector<std::pair<std::string, std::string>>& given) {

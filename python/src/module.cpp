@@ -19,5 +19,6 @@ NB_MODULE(_core, m) {
   bind_part(m);
   bind_road(m);
   bind_fmu(m);
+  bind_scene(m);
   bind_threads();
 }

@@ -282,6 +282,14 @@ void bind_functions(nb::module_& m) {
     return std::make_shared<BodyFile>(
         of_input(name, [&] { return read_body_bytes(content, name); }));
   });
+  m.def("part_of_body", [](const std::shared_ptr<FlexibleBody>& body) {
+    auto file = std::make_shared<BodyFile>();
+    file->part.body = *body;
+    file->provenance.source = "floatframe.Body";
+    file->provenance.units = "m-kg-s";
+    file->provenance.version = version();
+    return file;
+  });
   m.def("convert_file",
         [](const std::string& file, const std::string& out, int modes, const Keywords& options) {
           const PartJob job = job_of(file, options);

@@ -98,13 +98,6 @@ def test_names_are_taken_once():
     assert "end.z" not in model.to_yaml()
 
 
-def test_models_of_files_are_not_filled_in():
-    model = ff.Model.load(ff.example("quarter_car"))
-    assert model.to_yaml().startswith("#")
-    with pytest.raises(ff.InputError, match="changed by its parameters"):
-        model.bodies
-
-
 def test_saved_runs_are_those_of_the_command_line(tmp_path):
     import json
     import subprocess

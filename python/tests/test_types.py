@@ -24,12 +24,24 @@ exported: ff.FmuReport = ff.export_fmu(model, "vehicle.fmu", fmi=3, outputs=["ch
 platforms: tuple[str, ...] = exported.platforms
 copies = ff.Model.from_yaml(text), ff.Model.from_dict({"bodies": {}})
 
+filled.bodies.add("lever", rigid={"mass": "${2 * m}", "centre_of_mass": [0.3, 0, 0]})
+filled.bodies.add("bar", flexible={"file": "bar.inp", "units": "mm-t-s", "material": ff.Material(2e5, 0.3, 7.85e-9), "interfaces": {"A": ff.set("A")}})
+filled.joints.revolute("hinge", child="lever", at="hinge", axis="y")
+filled.joints.add("hold", type="weld", child="bar", child_node="A", when=True)
+filled.forces.spring_damper("spring", from_={"body": "lever"}, to={"body": "ground"}, spring=1e4)
+filled.outputs.add("tip", position={"body": "lever"}, axis="z")
+filled.data["gravity"] = [0, 0, -1.62]
+filled.name = "moon"
+written: str = filled.save("moon.yaml")
+
 result: ff.Result = ff.run(model, step=0.01, duration=1.0, progress=print, start="equilibrium", locate_edges=True)
 z: Array = result["chassis.z"]
 largest: float = float(z.max())
 status: object = result.summary["status"]
 folder: str = result.save("out")
 again = ff.run(model, start=result.state)
+loaded: ff.Result = ff.Result.load(folder, model=result.model)
+names_of_files: list[str] = [loaded.to_mat("a.mat"), loaded.to_hdf5("a.h5"), loaded.to_parquet("a.parquet")]
 
 sim = ff.Simulation(model, step=1e-3, coordinates="absolute", inertia="projection")
 report: ff.StepReport = sim.step()
@@ -138,3 +150,24 @@ def test_a_script_of_a_user(tmp_path, cache):
 
 def test_mistakes_are_found(tmp_path, cache):
     assert "arg-type" in mypy(tmp_path, cache, "import floatframe as ff\nff.run(3)\n")
+
+
+MISSPELT = [
+    ('model.joints.revolute("j", chld="b", axis="y")', "call-arg"),
+    ('model.joints.hinge("j", child="b")', "attr-defined"),
+    ('model.joints.add("j", type="weld", chld="b")', "call-arg"),
+    ('model.forces.spring_damper("s", sprng=1.0)', "call-arg"),
+    ('model.bodies.add("b", rigd={"mass": 1.0})', "call-arg"),
+    ('model.bodies.add("b", rigid={"mas": 1.0})', "arg-type"),
+    ('model.bodies.add("b", flexible={"file": "x", "unit": "mm-t-s"})', "arg-type"),
+    ('model.simulation.update(stepp=1e-3)', "call-arg"),
+    ('model.bodys.add("b")', "attr-defined"),
+]
+
+
+def test_misspelt_keys_are_found(tmp_path, cache):
+    lines = ["import floatframe as ff", "model = ff.Model()", *(line for line, _ in MISSPELT)]
+    told = mypy(tmp_path, cache, "\n".join(lines) + "\n").splitlines()
+    for number, (line, code) in enumerate(MISSPELT, start=3):
+        found = [text for text in told if text.startswith(f"script.py:{number}: error")]
+        assert found and any(f"[{code}]" in text for text in found), (line, told)

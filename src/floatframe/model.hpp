@@ -8,5 +8,6 @@
 #include "floatframe/model/model.hpp"
 #include "floatframe/model/road.hpp"
 #include "floatframe/model_file/load_model.hpp"
+#include "floatframe/model_file/model_values.hpp"
 #include "floatframe/model_file/pack_model.hpp"
 #include "floatframe/roads/crg_file.hpp"

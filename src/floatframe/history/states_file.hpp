@@ -39,4 +39,8 @@ class StatesFile {
   GrowingFile file_;
 };
 
+/// The bytes of such a file, complete.
+std::string states_bytes(const HistoryContent& content, std::span<const double> rows,
+                         const std::string& status, const std::string& message);
+
 }  // namespace floatframe

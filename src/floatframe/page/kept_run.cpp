@@ -55,8 +55,7 @@ KeptRun keep_recording(Recording& recording) {
 
 namespace {
 
-void write_kept_states(const std::string& folder, const std::string& path, const Model& model,
-                       const KeptRun& run) {
+HistoryContent kept_content(const std::string& folder, const Model& model, const KeptRun& run) {
   const bool known = !run.source.files.empty();
   HistoryOrigin origin = history_origin(run.model_file, folder);
   if (!known) origin.from_here.clear();
@@ -65,8 +64,12 @@ void write_kept_states(const std::string& folder, const std::string& path, const
     origin.files = run.source.relative;
     origin.text = run.source.text;
   }
-  StatesFile file(path, history_content(model, run.options, run.states->layout, std::move(origin)),
-                  false);
+  return history_content(model, run.options, run.states->layout, std::move(origin));
+}
+
+void write_kept_states(const std::string& folder, const std::string& path, const Model& model,
+                       const KeptRun& run) {
+  StatesFile file(path, kept_content(folder, model, run), false);
   file.append(run.states->rows);
   file.finish(run.result.summary.status, run.result.summary.message);
 }
@@ -88,6 +91,13 @@ std::string kept_page(const Model& model, const KeptRun& run, const RunSummary& 
 }
 
 }  // namespace
+
+std::string states_of_run(const Model& model, const KeptRun& run) {
+  if (!run.states) return {};
+  const RunSummary& summary = run.result.summary;
+  return states_bytes(kept_content(".", model, run), run.states->rows, summary.status,
+                      summary.message);
+}
 
 void save_run(const Model& model, const KeptRun& run, const std::string& folder) {
   if (folder.empty())

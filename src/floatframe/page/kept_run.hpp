@@ -35,4 +35,8 @@ KeptRun keep_recording(Recording& recording);
 /// the folder, OutputError if a file cannot be written.
 void save_run(const Model& model, const KeptRun& run, const std::string& folder);
 
+/// The bytes of the states.ffr that `save_run` writes, for a file in no folder yet; empty if no
+/// states were recorded.
+std::string states_of_run(const Model& model, const KeptRun& run);
+
 }  // namespace floatframe
