@@ -11,7 +11,7 @@ from .errors import Error, InputError, UnknownNameError
 from .model import Model
 from .options import Options
 from .progress import Bar
-from .run import Controller, Result, run, with_parameters
+from .run import Controller, Result, run
 
 if TYPE_CHECKING:
     import pandas
@@ -62,7 +62,7 @@ def _one(model: Model, row: Mapping[str, Any], options: Mapping[str, Any], on_st
             given[option] = value
         else:
             parameters[name] = value
-    return run(with_parameters(model, parameters), on_step=on_step, period=period, **given)
+    return run(model.with_parameters(**parameters), on_step=on_step, period=period, **given)
 
 
 def _figures(result: Result, measure: Sequence[str]) -> dict[str, float]:

@@ -103,12 +103,27 @@ class Model:
         model = cls(folder=folder)
         model._data = {"floatframe": 1, **plain(data)}
         model._give(parameters)
-        if parameters:  # unknown ones are an error of the reader
-            text = model._written(body_file)
-            _core.read_model(text, model.file, list(model._parameters.items()), dict(model.functions))
-            model._take_parameters(model.data)
+        model._check_and_take_parameters()
         model.core
         return model
+
+    def with_parameters(self, **parameters: Any) -> Model:
+        """A copy with other values of these parameters, built anew. Raises InputError."""
+        model = self.copy()
+        model._give({**self.parameters, **parameters})
+        model._built = None
+        if self.filled_in:
+            model._check_and_take_parameters()
+        elif self._text is not None:
+            model._data = None
+        model.core
+        return model
+
+    def _check_and_take_parameters(self) -> None:
+        if self._parameters:  # unknown ones are an error of the reader
+            text = self._written(body_file)
+            _core.read_model(text, self.file, list(self._parameters.items()), dict(self.functions))
+            self._take_parameters(self.data)
 
     def _give(self, parameters: Mapping[str, Any]) -> None:
         self._parameters = {name: parameter_text(value) for name, value in parameters.items()}

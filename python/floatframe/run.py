@@ -243,13 +243,6 @@ def settings_of(model: Model) -> list[str]:
     return [f"{name}={value}" for name, value in model.parameters.items()]
 
 
-def with_parameters(model: Model, parameters: Mapping[str, Any]) -> Model:
-    """The model with other values of these parameters, built anew."""
-    other = model.copy()
-    other._built = None
-    return other._with({**model.parameters, **parameters})
-
-
 def state_again(text: str) -> _core.State:
     """Restores a pickled state."""
     with tempfile.TemporaryDirectory() as folder:

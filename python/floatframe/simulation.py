@@ -12,7 +12,7 @@ from .arrays import texts, whole
 from .errors import InputError, worded
 from .model import Model, built
 from .options import Array, Options, as_dict
-from .run import Controller, Result, settings_of, with_parameters
+from .run import Controller, Result, settings_of
 from .states import StateName, Values, given
 
 if TYPE_CHECKING:
@@ -199,7 +199,7 @@ class Simulation(_core.Simulation):
         the start of the first model. Raises InputError, and changes nothing, if the structure is another one."""
         if (model is None) == (not parameters):
             raise InputError("change: expected a model, or values of parameters")
-        changed = model if model is not None else with_parameters(self._model, parameters)
+        changed = model if model is not None else self._model.with_parameters(**parameters)
         self.change_model(built(changed))
         self._model = changed
 
