@@ -6,16 +6,19 @@ import { decodeBuffer, PageBuffer, PageError } from './data/buffer';
 import { readChannel, type Channel } from './data/channels';
 import type { ChannelJson, CurvesJson, PageJson, View } from './data/page';
 import { readScene } from './data/scene_data';
+import { readStudy } from './data/study';
 import { offerInterface } from './interface';
 import { Curves } from './ui/curves';
 import { button, h, setIcon } from './ui/dom';
 import { Hub } from './ui/hub';
 import { buildHelp, listenToKeys } from './ui/keyboard';
-import { factsSection, speedSection, statusSection, trustSection } from './ui/tables';
+import { listenToPrinting } from './ui/paper';
+import { StudySection } from './ui/study';
+import { factsSection, headingOfFacts, speedSection, statusSection, trustSection } from './ui/tables';
 import { isDark, onTheme, toggleTheme } from './ui/theme';
 import { ViewSection } from './ui/view';
 
-const KINDS: Record<string, string> = { run: 'Run', check: 'Check', reduce: 'Reduced part', compare: 'Comparison', modes: 'Vibrations' };
+const KINDS: Record<string, string> = { run: 'Run', check: 'Check', reduce: 'Reduced part', compare: 'Comparison', modes: 'Vibrations', sweep: 'Study' };
 const SCHEMA = 1;
 
 function textOf(id: string): string | null {
@@ -146,16 +149,17 @@ async function build(app: HTMLElement): Promise<void> {
   };
   const curves = part('The curves are', () => (channels.length > 0 ? new Curves(channels, hub, page.kind === 'compare' || page.curves?.names ? (page.curves?.names ?? ['first', 'second']) : null) : null));
   sections.push(['view', '3-D view', view?.element ?? noView]);
+  sections.push(['study', 'Study', part('The runs of the study are', () => (page.study ? new StudySection(readStudy(page.study, buffer)).element : null))]);
   sections.push(['curves', 'Curves', curves?.element ?? null]);
   sections.push(['trust', 'Trust', part('What tells whether to trust the run is', () => trustSection((page.trust?.rows ?? []) as string[][], page.trust?.tables ?? [], trusted, page.trust?.notes ?? {}, hub))]);
-  sections.push(['facts', page.kind === 'reduce' ? 'The part' : 'Model', part('The tables of the model are', () => factsSection(page))]);
+  sections.push(['facts', headingOfFacts(page), part('The tables of the model are', () => factsSection(page))]);
   sections.push(['speed', 'Speed', part('The times of the steps are', () => speedSection(page, report))]);
   const present = sections.filter(([, , element]) => element !== null);
   const links = present.map(([id, label]): [string, string] => [id, label]);
   const pair = h('div', { class: `pair${view && curves ? ' both' : ''}` }, view?.element ?? noView, curves?.element);
   app.replaceChildren(
     header(page, links, help.open),
-    h('main', {}, status.element, pair, ...present.filter(([id]) => id !== 'view' && id !== 'curves').map(([, , element]) => element)),
+    h('main', {}, status.element, pair.childElementCount > 0 ? pair : null, ...present.filter(([id]) => id !== 'view' && id !== 'curves').map(([, , element]) => element)),
     h('footer', {}, page.program ?? ''),
   );
   onTheme(() => hub.redraw());
@@ -164,6 +168,7 @@ async function build(app: HTMLElement): Promise<void> {
   offerInterface(view, problems, [...channels, ...trusted]);
 }
 
+listenToPrinting();
 const app = document.getElementById('app')!;
 build(app).catch((error: unknown) => {
   // Whatever happens, a sentence stays on the page.

@@ -1,6 +1,6 @@
 // Writes all pages and pictures of them, to be looked at: npm run look.
 
-import { check, compare, large, reduce } from './pages/others';
+import { check, compare, large, reduce, sweep } from './pages/others';
 import { vehicle } from './pages/vehicle';
 import { modes } from './pages/vibrations';
 import { fillTemplate } from './pages/writer';
@@ -8,7 +8,7 @@ import { launch, open, snap, template, write } from './browser';
 
 const html = template();
 const only = process.argv.slice(2);
-const pages: Record<string, () => ReturnType<typeof vehicle>> = { vehicle, check, reduce, compare, large, modes };
+const pages: Record<string, () => ReturnType<typeof vehicle>> = { vehicle, check, reduce, compare, large, modes, sweep };
 const looks: [string, string, { width: number; height: number; dark?: boolean }, boolean][] = [
   ['vehicle', 'vehicle', { width: 1440, height: 900 }, true],
   ['vehicle_dark', 'vehicle', { width: 1440, height: 900, dark: true }, false],
@@ -19,6 +19,8 @@ const looks: [string, string, { width: number; height: number; dark?: boolean },
   ['compare', 'compare', { width: 1440, height: 900 }, true],
   ['large', 'large', { width: 1440, height: 900 }, false],
   ['modes', 'modes', { width: 1440, height: 900 }, true],
+  ['sweep', 'sweep', { width: 1440, height: 900 }, true],
+  ['sweep_narrow', 'sweep', { width: 390, height: 844, dark: true }, true],
   ['modes_narrow', 'modes', { width: 390, height: 844, dark: true }, true],
 ];
 const browser = await launch();

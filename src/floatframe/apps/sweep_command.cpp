@@ -30,6 +30,7 @@ struct SweepArguments {
   ModelArguments model;
   std::vector<std::string> vary, measures;
   std::string files_in, table, out, coordinates, inertia, step, duration, case_timeout, case_memory;
+  std::string report, minimize, maximize;
   int threads = 0;
   bool keep_results = false, fresh = false, retry_failed = false, strict = false, quiet = false,
        overwrite = false;
@@ -61,6 +62,9 @@ double megabytes(const std::string& text) {
 void require_own_study(const std::filesystem::path& folder) {
   for (const char* name : {"sweep.csv", "sweep.journal"})
     require_own({"--out", (folder / name).string()});
+  for (const char* run : {"best", "worst"})
+    for (const char* name : {"summary.json", "states.ffr", "report.html"})
+      require_own({"--out", (folder / run / name).string()});
   std::error_code ignored;
   for (std::filesystem::directory_iterator it(folder / "runs", ignored), end; !ignored && it != end;
        it.increment(ignored)) {
@@ -71,6 +75,27 @@ void require_own_study(const std::filesystem::path& folder) {
     if (const std::string results = (it->path() / "results.csv").string(); !is_own_results(results))
       refuse_foreign("--out", results);
   }
+}
+
+/// The page shows curves, so that the results of all runs are kept.
+void set_page(const SweepArguments& a, SweepOptions& o) {
+  for (const auto& [option, text] :
+       {std::pair{"--minimize", &a.minimize}, {"--maximize", &a.maximize}}) {
+    if (text->empty()) continue;
+    if (a.report.empty())
+      throw InputError(ErrorCode::missing,
+                       fmt::format("{} ranks the runs of a page, expected --report", option));
+    if (o.ranking)
+      throw InputError(ErrorCode::exclusive,
+                       "--minimize and --maximize exclude each other; remove one of them");
+    o.ranking = sweep_ranking(option, *text, text == &a.maximize);
+    // It is a column of the table even if others were asked for.
+    if (!o.measures.empty()) o.measures.push_back(o.ranking->measure);
+  }
+  if (a.report.empty()) return;
+  o.report = a.report;
+  o.keep_results = true;
+  if (!a.overwrite) require_own({"--report", a.report});
 }
 
 SweepOptions options_from(const SweepArguments& a) {
@@ -104,6 +129,7 @@ SweepOptions options_from(const SweepArguments& a) {
   for (const std::string& m : a.measures) o.measures.push_back(sweep_measure(m));
   o.threads = a.threads > 0 ? a.threads : processors();
   o.keep_results = a.keep_results;
+  set_page(a, o);
   o.fresh = a.fresh;
   o.retry_failed = a.retry_failed;
   o.strict = a.strict;
@@ -131,6 +157,7 @@ std::string report_text(const SweepReport& r, double seconds, int at_a_time, int
                         where,
                         r.before > 0 ? fmt::format(", {} were finished before", r.before) : "");
   text += fmt::format("  table    {}\n  journal  {}\n", r.table, r.journal);
+  if (!r.page.empty()) text += fmt::format("  page     {}\n", r.page);
   return text;
 }
 
@@ -250,6 +277,14 @@ Command sweep_command() {
                        "Folder for the files; default: out/<file name>_sweep"),
            flag("--keep-results", a->keep_results,
                 "Keep results.csv and summary.json of every run below DIR/runs"),
+           text_option("--report", a->report, "FILE",
+                       "Write a page: main effects, scatter, curves of the runs, table; keeps the "
+                       "results of every run"),
+           text_option("--minimize", a->minimize, "OUTPUT:STATISTIC",
+                       "The best run has the smallest of these; it and the worst get a page each, "
+                       "DIR/best and DIR/worst"),
+           text_option("--maximize", a->maximize, "OUTPUT:STATISTIC",
+                       "The same, the best run has the largest"),
            flag("--fresh", a->fresh, "Do not continue the study in DIR: start again"),
            flag("--retry-failed", a->retry_failed, "Continue, and repeat the runs that failed"),
            flag("--strict", a->strict,

@@ -9,12 +9,15 @@
 #include "floatframe/core/folder_lock.hpp"
 #include "floatframe/core/output_files.hpp"
 #include "floatframe/model_file/model_fingerprint.hpp"
+#include "floatframe/page/page_writer.hpp"
 #include "floatframe/run/run.hpp"
 #include "floatframe/sweep/run_queue.hpp"
 #include "floatframe/sweep/sweep_check.hpp"
 #include "floatframe/sweep/sweep_identity.hpp"
 #include "floatframe/sweep/sweep_journal.hpp"
+#include "floatframe/sweep/sweep_page.hpp"
 #include "floatframe/sweep/sweep_ranks.hpp"
+#include "floatframe/sweep/sweep_run.hpp"
 #include "floatframe/sweep/sweep_workers.hpp"
 
 namespace floatframe {
@@ -178,9 +181,37 @@ SweepReport report_of(const SweepOptions& o, const SweepJournal& journal, std::s
 
 }  // namespace
 
+namespace {
+
+void check_page(const SweepOptions& o) {
+  if (o.report.empty()) return;
+  if (page_template().empty())
+    throw InputError(ErrorCode::unavailable,
+                     "this program was built without the viewer and writes no page");
+  if (o.plan.runs.size() > most_runs_of_page)
+    throw InputError(ErrorCode::out_of_range,
+                     fmt::format("found {} runs, expected at most {} for a page",
+                                 o.plan.runs.size(), most_runs_of_page));
+}
+
+/// False if stopped.
+bool page_written(const SweepOptions& o, const std::vector<SweepRow>& rows,
+                  const std::atomic<bool>& stop, SweepReport& report) {
+  try {
+    write_sweep_page(o, rows, stop, report);
+  } catch (const RunCancelled&) {
+    return false;
+  }
+  report.page = o.report;
+  return true;
+}
+
+}  // namespace
+
 SweepReport run_sweep(const SweepOptions& o, SweepWorkers& workers, Ranks* ranks,
                       const std::atomic<bool>& stop,
                       const std::function<void(const SweepProgress&)>& progress) {
+  check_page(o);
   const CheckedRuns checked = check_runs(o, workers, stop, progress);
   if (checked.stopped) {
     SweepReport report;
@@ -190,6 +221,8 @@ SweepReport run_sweep(const SweepOptions& o, SweepWorkers& workers, Ranks* ranks
   }
   try {
     make_output_folder(o.folder);
+    if (const auto place = std::filesystem::path(o.report).parent_path(); !place.empty())
+      make_output_folder(place.string());
   } catch (const OutputError& error) {
     throw InputError(ErrorCode::unreadable, error.what());
   }
@@ -197,9 +230,12 @@ SweepReport run_sweep(const SweepOptions& o, SweepWorkers& workers, Ranks* ranks
   const std::string table_path = (std::filesystem::path(o.folder) / "sweep.csv").string();
   std::vector<std::string> inputs;
   for (const auto& [file, hash] : workers.files()) inputs.push_back(file);
-  require_distinct({{"--out", table_path}, {"--out", journal_path}}, inputs);
+  std::vector<OutputFile> outputs{{"--out", table_path}, {"--out", journal_path}};
+  if (!o.report.empty()) outputs.push_back({"--report", o.report});
+  require_distinct(outputs, inputs);
   try {
     check_writable(table_path);
+    if (!o.report.empty()) check_writable(o.report);
   } catch (const OutputError& error) {
     throw InputError(ErrorCode::unreadable, error.what());
   }
@@ -219,6 +255,7 @@ SweepReport run_sweep(const SweepOptions& o, SweepWorkers& workers, Ranks* ranks
     for (const auto& [run, row] : journal.finished()) rows.push_back(row);
     write_file(table_path, sweep_csv(o.plan.names, o.plan.runs, rows));
     report.table = table_path;
+    report.interrupted = !o.report.empty() && !page_written(o, rows, stop, report);
   }
   return report;
 }

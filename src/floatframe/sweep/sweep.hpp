@@ -34,6 +34,12 @@ struct SweepOptions {
   bool fresh = false;         ///< do not continue a study in the folder
   bool retry_failed = false;  ///< repeat the failed runs, whatever the reason
   bool strict = false;        ///< warnings count as failures
+  /// Page of the complete study; empty: none. Its curves are those of the runs
+  /// whose results are kept.
+  std::string report;
+  /// The best and the worst run by it are run once more, into `folder`/best and `folder`/worst,
+  /// each with its page. Only with a report.
+  std::optional<SweepRanking> ranking;
 };
 
 struct SweepProgress {
@@ -62,6 +68,7 @@ struct SweepReport {
   bool interrupted = false;
   std::string table;    ///< path of the table; empty if interrupted
   std::string journal;  ///< path of the journal
+  std::string page;     ///< path of the page; empty: none
 };
 
 /// Runs the study or its remaining runs. `stop`, polled continuously, ends it early: running runs

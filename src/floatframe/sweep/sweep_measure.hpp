@@ -12,7 +12,16 @@ struct SweepMeasure {
 inline const std::vector<std::string> sweep_statistics{"final", "min",         "time_of_min",
                                                        "max",   "time_of_max", "rms"};
 
-/// "tip.x" or "tip.x:max". Throws InputError.
-SweepMeasure sweep_measure(const std::string& text);
+/// "tip.x" or "tip.x:max"; `option` is named in errors. Throws InputError.
+SweepMeasure sweep_measure(const std::string& text, const std::string& option = "--measure");
+
+/// What makes a run the best of a study: a figure that is smallest there, or largest.
+struct SweepRanking {
+  SweepMeasure measure;  ///< with its statistic
+  bool largest = false;
+};
+
+/// "tip.x:max", the statistic included; `option` is named in errors. Throws InputError.
+SweepRanking sweep_ranking(const std::string& option, const std::string& text, bool largest);
 
 }  // namespace floatframe

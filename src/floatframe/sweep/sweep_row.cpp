@@ -47,7 +47,7 @@ bool wanted(const std::vector<SweepMeasure>& measures, const std::string& output
 
 }  // namespace
 
-SweepMeasure sweep_measure(const std::string& text) {
+SweepMeasure sweep_measure(const std::string& text, const std::string& option) {
   const std::size_t colon = text.rfind(':');
   SweepMeasure m{text.substr(0, colon), ""};
   if (colon != std::string::npos) m.statistic = text.substr(colon + 1);
@@ -57,11 +57,19 @@ SweepMeasure sweep_measure(const std::string& text) {
   if (!known || m.output.empty())
     throw InputError(
         ErrorCode::wrong_value,
-        fmt::format(
-            "--measure: found '{}', expected the name of an output, or name:statistic with {}{}",
-            text, fmt::join(sweep_statistics, ", "),
-            known ? "" : did_you_mean(m.statistic, sweep_statistics)));
+        fmt::format("{}: found '{}', expected the name of an output, or name:statistic with {}{}",
+                    option, text, fmt::join(sweep_statistics, ", "),
+                    known ? "" : did_you_mean(m.statistic, sweep_statistics)));
   return m;
+}
+
+SweepRanking sweep_ranking(const std::string& option, const std::string& text, bool largest) {
+  SweepRanking ranking{sweep_measure(text, option), largest};
+  if (ranking.measure.statistic.empty())
+    throw InputError(ErrorCode::missing,
+                     fmt::format("{}: found '{}' without a statistic, expected one of {}", option,
+                                 text, fmt::join(sweep_statistics, ", ")));
+  return ranking;
 }
 
 SweepRow sweep_row(const RunResult& result, const std::vector<SweepMeasure>& measures) {

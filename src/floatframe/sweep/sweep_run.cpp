@@ -29,11 +29,6 @@ std::string first_error(const InputError& error) {
   return text;
 }
 
-std::filesystem::path folder_of(const SweepOptions& options, std::size_t run) {
-  const std::size_t digits = std::to_string(options.plan.runs.size()).size();
-  return std::filesystem::path(options.folder) / "runs" / fmt::format("{:0{}}", run + 1, digits);
-}
-
 /// Removes temporary files of a process that died while it wrote them.
 void remove_torn_files(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> torn;
@@ -101,18 +96,9 @@ void keep_files(const std::filesystem::path& folder, const RunResult& result,
   write_file((folder / "summary.json").string(), summary_json(result.summary));
 }
 
-/// Values of a run, in the form of `run --set`.
-std::vector<std::string> settings_of(const SweepOptions& options, std::size_t run) {
-  std::vector<std::string> settings;
-  for (const SweepSetting& s : options.fixed) settings.push_back(s.name + '=' + s.value);
-  for (std::size_t k = 0; k < options.plan.names.size(); ++k)
-    settings.push_back(options.plan.names[k] + '=' + options.plan.runs[run][k]);
-  return settings;
-}
-
 /// Origin written to the states of a run.
 HistoryOrigin origin_of(const SweepOptions& options, std::size_t run, const PreparedRun& prepared) {
-  HistoryOrigin o = history_origin(options.model, folder_of(options, run).string());
+  HistoryOrigin o = history_origin(options.model, folder_of_run(options, run));
   for (const std::string& setting : settings_of(options, run))
     if (!setting.starts_with("simulation.")) o.settings.push_back(setting);  // in the header
   if (prepared.files) o.files = relative_to_model(options.model, *prepared.files);
@@ -120,6 +106,20 @@ HistoryOrigin origin_of(const SweepOptions& options, std::size_t run, const Prep
 }
 
 }  // namespace
+
+std::string folder_of_run(const SweepOptions& options, std::size_t run) {
+  const std::size_t digits = std::to_string(options.plan.runs.size()).size();
+  const auto name = fmt::format("{:0{}}", run + 1, digits);
+  return (std::filesystem::path(options.folder) / "runs" / name).string();
+}
+
+std::vector<std::string> settings_of(const SweepOptions& options, std::size_t run) {
+  std::vector<std::string> settings;
+  for (const SweepSetting& s : options.fixed) settings.push_back(s.name + '=' + s.value);
+  for (std::size_t k = 0; k < options.plan.names.size(); ++k)
+    settings.push_back(options.plan.names[k] + '=' + options.plan.runs[run][k]);
+  return settings;
+}
 
 SweepRunner::SweepRunner(const SweepOptions& options, const std::atomic<bool>& stop)
     : options_(options),
@@ -138,14 +138,17 @@ SweepCase SweepRunner::read(std::size_t run) {
 
 SweepCase SweepRunner::read_checked(std::size_t run) {
   SweepCase c = read(run);
-  for (const SweepMeasure& m : options_.measures) {
-    std::vector<std::string> names;
-    for (const OutputDescription& o : c.description.outputs) names.push_back(o.name);
+  std::vector<std::string> names;
+  for (const OutputDescription& o : c.description.outputs) names.push_back(o.name);
+  const auto require = [&](const char* option, const SweepMeasure& m) {
     if (std::find(names.begin(), names.end(), m.output) == names.end())
       throw InputError(ErrorCode::not_found,
-                       fmt::format("--measure: {} has no output '{}'{}", options_.model, m.output,
+                       fmt::format("{}: {} has no output '{}'{}", option, options_.model, m.output,
                                    did_you_mean(m.output, names)));
-  }
+  };
+  for (const SweepMeasure& m : options_.measures) require("--measure", m);
+  if (options_.ranking)
+    require(options_.ranking->largest ? "--maximize" : "--minimize", options_.ranking->measure);
   return c;
 }
 
@@ -215,7 +218,7 @@ std::string SweepRunner::line(std::size_t run, std::atomic<double>& progress) {
   if (options_.keep_results) {
     result.summary.settings = settings_of(options_, run);
     if (prepared.files) result.summary.files = *prepared.files;
-    keep_files(folder_of(options_, run), result, states);
+    keep_files(folder_of_run(options_, run), result, states);
   }
   return encode_row(run, row);
 }
@@ -232,7 +235,7 @@ std::string lost_line(const SweepOptions& options, std::size_t run, const std::s
     result.summary.status = "failed";
     result.summary.message = reason;
     result.summary.settings = settings_of(options, run);
-    keep_files(folder_of(options, run), result, {});
+    keep_files(folder_of_run(options, run), result, {});
   }
   return encode_row(run, failed_row(reason));
 }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "floatframe/sweep/model_pool.hpp"
 #include "floatframe/sweep/sweep.hpp"
@@ -23,6 +24,11 @@ struct PreparedRun {
 
 /// Thrown for a run cancelled because the study ends.
 struct RunCancelled {};
+
+/// `folder`/runs/<number from 1>, with as many digits as the last one.
+std::string folder_of_run(const SweepOptions& options, std::size_t run);
+/// Values of a run, in the form of `run --set`.
+std::vector<std::string> settings_of(const SweepOptions& options, std::size_t run);
 
 class SweepRunner {
  public:

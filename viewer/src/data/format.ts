@@ -61,16 +61,31 @@ export function plural(count: number, one: string, many = `${one}s`): string {
   return `${count} ${count === 1 ? one : many}`;
 }
 
-/** Numbers along an axis, with the digits that tell them apart. */
-export function tickText(splits: number[]): string[] {
-  const step = splits.length > 1 ? Math.abs(splits[1] - splits[0]) : 1;
-  const largest = Math.max(...splits.map(Math.abs));
-  if (largest >= 1e6 || (largest < 1e-3 && largest > 0)) {
-    const digits = Math.max(0, Math.ceil(Math.log10(largest / step)));
-    return splits.map((v) => (Math.abs(v) < step * 1e-6 ? '0' : v.toExponential(Math.min(digits, 8)).replace('e+', 'e').replace(/-/g, '\u2212')));
+/** Few digits, but as many as tell different numbers apart: the ends of a scale, the edges of classes. */
+export function distinctTexts(values: number[], digits = 3): string[] {
+  const different = new Set(values.filter(Number.isFinite)).size;
+  for (let d = digits; d < 15; ++d) {
+    const texts = values.map((value) => formatNumber(value, d));
+    if (new Set(texts.filter((_, k) => Number.isFinite(values[k]))).size === different) return texts;
   }
-  // As many as the step needs: 0.5 has one, 2.5 one, 0.025 three.
-  let decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
-  while (decimals < 10 && Math.abs(step * 10 ** decimals - Math.round(step * 10 ** decimals)) > 1e-6 * step * 10 ** decimals) ++decimals;
-  return splits.map((v) => (Math.abs(v) < step * 1e-6 ? '0' : v.toFixed(decimals).replace('-', '\u2212')));
+  return values.map((value) => formatNumber(value, 15));
+}
+
+const MOST_DECIMALS = 14;
+
+/** Numbers along an axis with all the digits that their step needs: none is rounded to another value. */
+export function tickText(splits: number[]): string[] {
+  const known = splits.filter(Number.isFinite);
+  const steps = known.slice(1).map((v, k) => Math.abs(v - known[k])).filter((step) => step > 0);
+  const largest = known.reduce((most, v) => Math.max(most, Math.abs(v)), 0);
+  const step = steps.length > 0 ? Math.min(...steps) : largest > 0 ? largest * 1e-3 : 1;
+  const exact = (text: (decimals: number) => (v: number) => string): string[] => {
+    for (let decimals = 0; ; ++decimals) {
+      const written = text(decimals);
+      if (decimals < MOST_DECIMALS && !known.every((v) => Math.abs(Number(written(v)) - v) <= 1e-3 * step)) continue;
+      return splits.map((v) => (Math.abs(v) < 1e-6 * step ? '0' : written(v).replace('e+', 'e').replace(/-/g, MINUS)));
+    }
+  };
+  if (largest >= 1e6 || (largest < 1e-3 && largest > 0)) return exact((decimals) => (v) => v.toExponential(decimals));
+  return exact((decimals) => (v) => v.toFixed(decimals));
 }

@@ -11,7 +11,7 @@ export interface View {
 
 export type Triple = [number, number, number];
 export type Quadruple = [number, number, number, number];
-export type PageKind = 'run' | 'check' | 'reduce' | 'compare' | 'modes';
+export type PageKind = 'run' | 'check' | 'reduce' | 'compare' | 'modes' | 'sweep';
 
 export interface ChannelJson {
   name: string;
@@ -216,6 +216,22 @@ export interface SceneJson {
   vibrations?: VibrationsJson | null;
 }
 
+/** A parameter study: all lists by run, in the order of the plan. */
+export interface StudyJson {
+  variables: { name: string; values: string[] }[];
+  /** "completed" or "failed", and why. */
+  states: string[];
+  messages?: string[] | null;
+  /** f64 [runs], not a number where a run has no such figure. */
+  measures: { name: string; unit?: string | null; values: View }[];
+  /** Of some runs: time f64 [n], values f32 [channels of the run, n]. */
+  curves?: { channels: { name: string; unit?: string | null }[]; runs: { run: number; channels: number[]; time: View; values: View }[] } | null;
+  runs_without_curves?: number | null;
+  ranking?: { measure: string; largest?: boolean | null } | null;
+  /** Pages of the best and the worst run, by addresses from this page. */
+  pages?: Record<string, { run: number; address: string }> | null;
+}
+
 export interface PageJson {
   schema: number;
   kind: PageKind;
@@ -231,4 +247,5 @@ export interface PageJson {
   /** Step times in ms. */
   speed?: { rows?: string[][] | null; step_times?: { edges: number[]; counts: number[]; median?: number | null; percent_99?: number | null } | null } | null;
   scene?: SceneJson | null;
+  study?: StudyJson | null;
 }

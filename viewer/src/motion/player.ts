@@ -9,6 +9,8 @@ export class Player {
   playing = false;
   loop = true;
   speed = 1;
+  /** Seconds of the record that have been played so far, begun again or not. */
+  played = 0;
   readonly start: number;
   readonly end: number;
   /** Instants that single steps go to. */
@@ -46,6 +48,7 @@ export class Player {
   /** Goes on by `seconds` of the clock; stops or begins again at the end. */
   advance(seconds: number): void {
     if (!this.playing) return;
+    this.played += seconds * this.speed;
     const next = this.time + seconds * this.speed;
     if (next < this.end) this.set(next);
     else if (this.loop && this.moves) this.set(this.start + ((next - this.start) % (this.end - this.start)));

@@ -7,12 +7,50 @@ const HEIGHT = 22;
 const BESIDE = 0.06;
 const ABOVE = 0.35;
 const ROWS = 4;
+/** Left of its point a name ends as far from it as it begins right of it. */
+const SIDES = ['right', 'left'] as const;
 
 export interface Box {
   left: number;
   right: number;
   top: number;
   bottom: number;
+}
+
+let kept: Box[] = [];
+let [pictureWidth, pictureHeight] = [Infinity, Infinity];
+
+/** Parts of the picture that other things cover, and its size: names lie within and beside them. Pixels from the left and the top. */
+export function keepFree(boxes: Box[], width: number, height: number): void {
+  kept = boxes;
+  [pictureWidth, pictureHeight] = [width, height];
+}
+
+function overlap(a: Box, b: Box): boolean {
+  return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+}
+
+interface Place {
+  box: Box;
+  /** Rows above its own place; below the point where negative. */
+  row: number;
+  side: (typeof SIDES)[number];
+}
+
+/** The free place of a name that is nearest to its point - right, left, above, below -, in pixels from the left and the top. */
+export function placeBeside(width: number, x: number, y: number, taken: Box[]): Place | null {
+  for (let k = 0; k < ROWS; ++k) {
+    for (const side of SIDES) {
+      for (const row of k === 0 ? [0] : [k, -k - 2 * ABOVE]) {
+        const left = side === 'right' ? x + BESIDE * width : x - (1 + BESIDE) * width;
+        const bottom = y - (ABOVE + row) * HEIGHT;
+        const box = { left, right: left + width, top: bottom - HEIGHT, bottom };
+        if (box.left < 0 || box.top < 0 || box.right > pictureWidth || box.bottom > pictureHeight) continue;
+        if (![...taken, ...kept].some((other) => overlap(box, other))) return { box, row, side };
+      }
+    }
+  }
+  return null;
 }
 
 export class Label {
@@ -58,24 +96,13 @@ export class Label {
     this.sprite.scale.set(this.width * pixel, HEIGHT * pixel, 1);
   }
 
-  /** In pixels from the left and the top, `row` rows above its own place, if its point is at (x, y). */
-  private box(x: number, y: number, row: number): Box {
-    const left = x + BESIDE * this.width;
-    const bottom = y - (ABOVE + row) * HEIGHT;
-    return { left, right: left + this.width, top: bottom - HEIGHT, bottom };
-  }
-
-  /** Takes the lowest free row at its point, or none; `taken` grows by its place. */
+  /** Takes the free place nearest to its point, or none; `taken` grows by it. */
   settle(x: number, y: number, taken: Box[]): void {
-    for (let row = 0; row < ROWS; ++row) {
-      const box = this.box(x, y, row);
-      if (taken.some((other) => box.left < other.right && other.left < box.right && box.top < other.bottom && other.top < box.bottom)) continue;
-      taken.push(box);
-      this.sprite.center.set(-BESIDE, -ABOVE - row);
-      this.sprite.visible = true;
-      return;
-    }
-    this.sprite.visible = false;
+    const place = placeBeside(this.width, x, y, taken);
+    this.sprite.visible = place !== null;
+    if (!place) return;
+    taken.push(place.box);
+    this.sprite.center.set(place.side === 'right' ? -BESIDE : 1 + BESIDE, -ABOVE - place.row);
   }
 
   dispose(): void {

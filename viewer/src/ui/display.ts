@@ -2,13 +2,29 @@
 
 import type { SceneData } from '../data/scene_data';
 import type { Layer } from '../scene/connections';
-import type { MapName } from '../scene/palette';
+import type { BaseMap } from '../scene/palette';
 import type { Stage } from '../scene/stage';
-import type { Colours } from './colours';
+import type { Colours, Scope } from './colours';
 import { check, h } from './dom';
 import type { Legend } from './legend';
 
 const MOST = 1000;
+
+const SCOPES: [Scope, string][] = [
+  ['run', 'Whole run, all bodies'],
+  ['visible', 'Whole run, visible bodies'],
+  ['body', 'Whole run, chosen body'],
+  ['now', 'This instant, visible bodies'],
+  ['percentile', 'Percentile of the places'],
+  ['limit', "A material's limit"],
+  ['typed', 'As typed'],
+];
+const MAPS: [BaseMap, string][] = [['viridis', 'Viridis'], ['cividis', 'Cividis'], ['turbo', 'Turbo']];
+const BANDS: [number, string][] = [[0, 'Smooth'], [6, '6 bands'], [10, '10 bands'], [12, '12 bands']];
+
+function choices<T extends string | number>(label: string, options: [T, string][], chosen: T): HTMLSelectElement {
+  return h('select', { class: 'field', 'aria-label': label }, ...options.map(([value, text]) => h('option', { value, selected: value === chosen }, text)));
+}
 
 export class Display {
   readonly element = h('div', { class: 'display' });
@@ -22,7 +38,17 @@ export class Display {
   private readonly sliderText = h('output', {});
   private readonly low = h('input', { type: 'number', step: 'any', class: 'field', 'aria-label': 'Lower end of the scale' });
   private readonly high = h('input', { type: 'number', step: 'any', class: 'field', 'aria-label': 'Upper end of the scale' });
-  private readonly limits = h('div', { class: 'row limits', hidden: true }, this.low, h('span', {}, 'to'), this.high);
+  private readonly scaleUnit = h('span', {});
+  private readonly limits = h('div', { class: 'row limits', hidden: true }, this.low, h('span', {}, 'to'), this.high, this.scaleUnit);
+  private readonly scope = choices('Scale of the colours', SCOPES, 'run');
+  private readonly percent = h('input', { type: 'number', min: 50, max: 100, step: 'any', class: 'field', 'aria-label': 'Percent of the places that the scale holds' });
+  private readonly limit = h('input', { type: 'number', min: 0, step: 'any', class: 'field', 'aria-label': "A material's limit" });
+  private readonly limitUnit = h('span', {});
+  private readonly percentRow = h('div', { class: 'row limits', hidden: true }, this.percent, h('span', {}, '% of the places'));
+  private readonly limitRow = h('div', { class: 'row limits', hidden: true }, h('span', {}, 'Limit'), this.limit, this.limitUnit);
+  private colourBy: HTMLSelectElement | null = null;
+  /** What the scale was last computed from. */
+  private seen = '';
 
   constructor(stage: Stage, colours: Colours, legend: Legend) {
     this.stage = stage;
@@ -57,10 +83,50 @@ export class Display {
   }
 
   apply(): void {
-    const choice = this.colours.choice(this.field);
+    const { colours, field } = this;
+    this.seen = this.signature();
+    const choice = colours.choice(field);
     this.stage.setColour(choice);
-    this.legend.show(choice, this.colours.unit(this.field), this.relative && (this.field === null || this.colours.isStress(this.field)), this.colours.note(this.field));
+    if (field === undefined) this.legend.show(null);
+    else {
+      const relative = this.relative && (field === null || colours.isStress(field));
+      const { name, factor } = colours.unit(field);
+      const what = field ?? (relative ? 'Displacement' : 'Elastic displacement');
+      const [low, high] = choice.scale;
+      this.legend.show({
+        title: relative ? `${what} of the mode, relative` : name ? `${what} [${name}]` : what,
+        scale: relative ? [low < 0 ? -1 : 0, 1] : [low * factor, high * factor],
+        map: choice.map,
+        beyond: colours.beyond(field),
+        scope: colours.scopeText(field),
+        note: colours.note(field),
+      });
+    }
     this.showLimits();
+  }
+
+  /** Another scale if that depends on the time, on what is visible or on what is chosen. */
+  keepUp(): void {
+    if (this.seen !== this.signature()) this.apply();
+  }
+
+  private signature(): string {
+    const { stage, colours } = this;
+    if (this.field === undefined || this.relative) return '';
+    return JSON.stringify([stage.bodies.map((body) => body.group.visible), stage.selected?.body ?? -1, colours.moves ? [stage.motion.frame, stage.motion.part] : 0]);
+  }
+
+  /** Colours by a field, if any body has it. */
+  setField(field: string | null): void {
+    const k = this.colours.scalars.findIndex((scalar) => scalar.field === field);
+    if (k < 0) return;
+    this.field = field;
+    if (this.colourBy) this.colourBy.value = String(k);
+    this.apply();
+  }
+
+  get shownField(): string | null | undefined {
+    return this.field;
   }
 
   setFollow(body: number): void {
@@ -80,19 +146,46 @@ export class Display {
       this.field = select.value === BODIES ? undefined : this.colours.scalars[Number(select.value)].field;
       this.apply();
     });
-    const map = h('select', { class: 'field', 'aria-label': 'Colour map' }, h('option', { value: 'viridis' }, 'Viridis'), h('option', { value: 'cividis' }, 'Cividis'));
+    this.colourBy = select;
+    const map = choices('Colour map', MAPS, 'viridis');
     map.addEventListener('change', () => {
-      this.colours.map = map.value as MapName;
+      this.colours.base = map.value as BaseMap;
       this.apply();
     });
-    this.element.append(h('div', { class: 'setting' }, h('div', { class: 'setting-head' }, 'Colour'), h('div', { class: 'row' }, select, map), this.relative ? null : this.limits));
+    const bands = choices('Bands of colour', BANDS, 0);
+    bands.addEventListener('change', () => {
+      this.colours.bands = Number(bands.value);
+      this.apply();
+    });
+    this.element.append(h('div', { class: 'setting' }, h('div', { class: 'setting-head' }, 'Colour'), select, h('div', { class: 'row maps' }, map, bands)));
     const leftOut = this.colours.leftOut();
     if (leftOut) this.element.append(h('p', { class: 'hint' }, leftOut));
+    if (!this.relative) this.addScale();
+  }
+
+  private addScale(): void {
+    const { colours } = this;
+    this.element.append(h('div', { class: 'setting' }, h('div', { class: 'setting-head' }, 'Scale'), this.scope, this.percentRow, this.limitRow, this.limits));
+    this.scope.addEventListener('change', () => {
+      colours.scope = this.scope.value as Scope;
+      this.apply();
+    });
+    this.percent.addEventListener('change', () => {
+      const value = Number(this.percent.value);
+      if (this.percent.value !== '' && value >= 50 && value <= 100) colours.percent = value;
+      this.apply();
+    });
+    this.limit.addEventListener('change', () => {
+      const value = Number(this.limit.value);
+      if (this.field !== undefined && this.limit.value !== '' && value > 0 && Number.isFinite(value)) colours.setLimit(this.field, value / colours.unit(this.field).factor);
+      this.apply();
+    });
     for (const [k, input] of [this.low, this.high].entries()) {
       input.addEventListener('change', () => {
-        const range = this.colours.choice(this.field).range.slice() as [number, number];
-        range[k] = Number(input.value);
-        if (input.value !== '' && Number.isFinite(range[k]) && range[0] < range[1]) this.colours.setRange(this.field!, range);
+        if (this.field === undefined) return;
+        const range: [number, number] = [...colours.choice(this.field).scale];
+        range[k] = Number(input.value) / colours.unit(this.field).factor;
+        if (input.value !== '' && Number.isFinite(range[k]) && range[0] < range[1]) colours.type(this.field, range);
         this.apply();
       });
     }
@@ -100,11 +193,21 @@ export class Display {
 
   /** Limits of the scale can be typed, of what has a scale in its own unit. */
   private showLimits(): void {
-    this.limits.hidden = typeof this.field !== 'string';
-    if (this.limits.hidden) return;
-    const [low, high] = this.colours.choice(this.field).range;
-    this.low.value = String(Number(low.toPrecision(4)));
-    this.high.value = String(Number(high.toPrecision(4)));
+    const { colours, field } = this;
+    const { name, factor } = colours.unit(field);
+    this.scope.disabled = field === undefined;
+    this.scope.value = colours.scope;
+    this.limits.hidden = field === undefined;
+    this.percentRow.hidden = field === undefined || colours.scope !== 'percentile';
+    this.limitRow.hidden = field === undefined || colours.scope !== 'limit';
+    if (field === undefined) return;
+    const [low, high] = colours.choice(field).scale;
+    this.low.value = String(Number((low * factor).toPrecision(4)));
+    this.high.value = String(Number((high * factor).toPrecision(4)));
+    this.scaleUnit.textContent = this.limitUnit.textContent = name;
+    this.percent.value = String(colours.percent);
+    const limit = colours.limit(field);
+    this.limit.value = limit === undefined ? '' : String(Number((limit * factor).toPrecision(6)));
   }
 
   private addFollow(scene: SceneData): void {

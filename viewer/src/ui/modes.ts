@@ -50,6 +50,13 @@ export class ModeList {
     return this.rows.length;
   }
 
+  /** Of the mode that swings [Hz]; null: it has none. */
+  get frequency(): number | null {
+    const chosen = this.rows[this.chosen];
+    const f = chosen && this.stage.scene.bodies[chosen.body].frequencies[chosen.mode];
+    return typeof f === 'number' && f > 0 ? f : null;
+  }
+
   step(count: number): void {
     const next = Math.min(this.rows.length - 1, Math.max(0, this.chosen + count));
     if (next !== this.chosen) this.choose(next);

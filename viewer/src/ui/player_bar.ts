@@ -3,9 +3,27 @@
 import { formatNumber } from '../data/format';
 import { SPEEDS, type Player } from '../motion/player';
 import { button, h, setIcon } from './dom';
+import { SWING } from './modes';
 
 export function speedText(speed: number): string {
   return `${formatNumber(speed, 3)}×`;
+}
+
+/** What swings on the page at a rate of its own. */
+interface Swinging {
+  /** Of the real vibration [Hz]; null: it has none. */
+  readonly frequency: number | null;
+}
+
+/** A speed that is the chosen one but for the jitter of a clock. */
+const JITTER = 0.03;
+
+/** What is played, measured: pictures a second and seconds of the record a second, or the part of the real rate of a vibration. */
+export function rateText(pictures: number, measured: number, chosen: number, frequency?: number | null): string {
+  const speed = Math.abs(measured - chosen) <= JITTER * chosen ? chosen : measured;
+  const shown = `${pictures.toFixed(0)} fps`;
+  if (frequency === undefined) return `${shown}, ${formatNumber(speed, 2)}×`;
+  return frequency === null ? shown : `${shown}, ${formatNumber(speed / SWING / frequency, 2)}× real`;
 }
 
 export class PlayerBar {
@@ -15,14 +33,21 @@ export class PlayerBar {
   private readonly playButton: HTMLButtonElement;
   private readonly loopButton: HTMLButtonElement;
   private readonly now = h('output', { class: 'now' });
-  private readonly rate = h('span', { class: 'rate', title: 'Pictures per second' });
+  private readonly rate = h('span', { class: 'rate', title: 'Pictures per second, and the speed that is played' });
   private readonly speed: HTMLSelectElement;
   private readonly decimals: number;
+  private readonly swinging: Swinging | null;
+  /** Of the clock: seconds, or degrees of a swing, whose seconds on the page mean nothing. */
+  private readonly unit: string;
+  private readonly factor: number;
 
-  constructor(player: Player, unit: string) {
+  constructor(player: Player, swinging: Swinging | null) {
     this.player = player;
+    this.swinging = swinging;
+    this.unit = swinging ? '°' : 's';
+    this.factor = swinging ? 360 / SWING : 1;
     const span = player.end - player.start;
-    this.decimals = span > 0 ? Math.min(6, Math.max(1, 3 - Math.floor(Math.log10(span)))) : 3;
+    this.decimals = swinging ? 0 : span > 0 ? Math.min(6, Math.max(1, 3 - Math.floor(Math.log10(span)))) : 3;
     this.playButton = button('play', 'Play (space)', () => player.toggle(), { class: 'icon-button play' });
     this.loopButton = button('loop', 'Begin again at the end (L)', () => player.setLoop(!player.loop), { 'aria-pressed': String(player.loop) });
     this.scrubber = h('input', { type: 'range', class: 'scrubber', min: 0, max: 1, step: 'any', value: 0, 'aria-label': 'Time' });
@@ -32,7 +57,7 @@ export class PlayerBar {
     });
     this.speed = h('select', { class: 'field', 'aria-label': 'Speed', title: 'Speed ([ and ])' }, ...SPEEDS.map((s) => h('option', { value: s }, speedText(s))));
     this.speed.addEventListener('change', () => player.setSpeed(Number(this.speed.value)));
-    const end = h('span', { class: 'end' }, `/ ${player.end.toFixed(this.decimals)} ${unit}`);
+    const end = h('span', { class: 'end' }, `/ ${(player.end * this.factor).toFixed(this.decimals)} ${this.unit}`);
     this.element = h(
       'div',
       { class: 'player no-print', role: 'group', 'aria-label': 'Player' },
@@ -60,8 +85,8 @@ export class PlayerBar {
     const part = span > 0 ? (this.player.time - this.player.start) / span : 0;
     this.scrubber.value = String(part);
     this.scrubber.style.setProperty('--part', `${(100 * part).toFixed(2)}%`);
-    this.now.textContent = this.player.time.toFixed(this.decimals);
-    this.scrubber.setAttribute('aria-valuetext', `${this.now.textContent} s`);
+    this.now.textContent = (this.player.time * this.factor).toFixed(this.decimals);
+    this.scrubber.setAttribute('aria-valuetext', `${this.now.textContent} ${this.unit}`);
   }
 
   private showState(): void {
@@ -69,12 +94,14 @@ export class PlayerBar {
     this.playButton.title = this.player.playing ? 'Pause (space)' : 'Play (space)';
     this.playButton.setAttribute('aria-label', this.playButton.title);
     this.loopButton.setAttribute('aria-pressed', String(this.player.loop));
-    const known = SPEEDS.includes(this.player.speed);
-    if (known) this.speed.value = String(this.player.speed);
+    this.speed.value = String(this.player.speed);
     if (!this.player.playing) this.rate.textContent = '';
   }
 
-  showRate(rate: number): void {
-    this.rate.textContent = rate > 0 && this.player.playing ? `${rate.toFixed(0)} fps` : '';
+  /** Pictures, and seconds of the record, in a second of the clock. */
+  showRate(rate: number, measured: number): void {
+    const { playing, speed } = this.player;
+    this.rate.textContent = rate > 0 && playing ? rateText(rate, measured, speed, this.swinging?.frequency ?? (this.swinging ? null : undefined)) : '';
+    this.rate.classList.toggle('slow', measured < (1 - JITTER) * speed);
   }
 }

@@ -39,6 +39,23 @@ export interface PlotSpec {
 // The limit belongs on the axis where the curves reach this part of it; further away it is said in words.
 const NEAR_LIMIT = 1 / 3;
 
+const FONT = '11px system-ui, -apple-system, "Segoe UI", sans-serif';
+const LEAST_AXIS = 62;
+let pen: CanvasRenderingContext2D | null = null;
+
+/** Width of the widest text of an axis, in pixels. */
+function widest(texts: readonly (string | number | null)[] | null): number {
+  pen ??= document.createElement('canvas').getContext('2d')!;
+  pen.font = FONT;
+  return (texts ?? []).reduce<number>((most, text) => Math.max(most, pen!.measureText(String(text ?? '')).width), 0);
+}
+
+/** Distance of numbers on the axis of time so that they do not touch, with the digits that a zoomed range needs. */
+function timeSpace(min: number, max: number, width: number): number {
+  const step = (60 * (max - min)) / Math.max(1, width);
+  return Math.max(60, widest(tickText([max - step, max])) + 22);
+}
+
 function gaps(values: Float64Array): ArrayLike<number> | (number | null)[] {
   return values.every(Number.isFinite) ? values : Array.from(values, (value) => (Number.isFinite(value) ? value : null));
 }
@@ -167,13 +184,15 @@ export class TimePlot implements HubMember {
       stroke: () => cssColour('--muted'),
       grid: { stroke: () => cssColour('--grid'), width: 1 },
       ticks: { stroke: () => cssColour('--grid'), width: 1, size: 4 },
-      font: '11px system-ui, -apple-system, "Segoe UI", sans-serif',
+      font: FONT,
       gap: 4,
     };
+    let lastTime = '';
     const options: uPlot.Options = {
       width: Math.max(120, this.box.clientWidth),
       height: this.spec.height ?? 180,
-      padding: [8, 10, 0, 0],
+      // Half of the last number of the axis stands beside it.
+      padding: [8, () => Math.max(10, Math.ceil(widest([lastTime]) / 2) + 2), 0, 0],
       legend: { show: false },
       cursor: { y: false, drag: { x: true, y: false, setScale: true }, points: { size: 6 } },
       scales: {
@@ -189,8 +208,17 @@ export class TimePlot implements HubMember {
         },
       },
       axes: [
-        { ...axis, size: 26, values: (_u, splits) => tickText(splits).map((text, i) => (i === splits.length - 1 ? `${text} s` : text)), space: 60 },
-        { ...axis, size: 62, values: (_u, splits) => tickText(splits), space: 30 },
+        {
+          ...axis,
+          size: 26,
+          values: (_u, splits) => {
+            const texts = tickText(splits);
+            lastTime = `${texts[texts.length - 1] ?? ''} s`;
+            return texts.map((text, i) => (i === texts.length - 1 ? lastTime : text));
+          },
+          space: (_u, _axis, min, max, width) => timeSpace(min, max, width),
+        },
+        { ...axis, size: (_u, values) => Math.max(LEAST_AXIS, Math.ceil(widest(values)) + 14), values: (_u, splits) => tickText(splits), space: 30 },
       ],
       series: [
         {},

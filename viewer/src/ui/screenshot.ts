@@ -1,6 +1,6 @@
 // A picture of the view with its ground, its title and its legend, as a PNG file.
 
-import { mapStops } from '../scene/palette';
+import { lookOf, mapStops, OVER_COLOUR } from '../scene/palette';
 import type { Legend } from './legend';
 import { cssColour } from './theme';
 
@@ -26,19 +26,25 @@ export function takePicture(view: HTMLCanvasElement, legend: Legend, caption: st
   if (!legend.element.hidden) {
     const size = 200;
     const left = width - size - 20;
-    const top = height - 44;
+    const top = height - (legend.scopeText ? 60 : 44);
     const bar = context.createLinearGradient(left, 0, left + size, 0);
-    const stops = mapStops(legend.map);
-    stops.forEach((colour, k) => bar.addColorStop(k / (stops.length - 1), colour));
+    for (const [at, colour] of mapStops(legend.map)) bar.addColorStop(at, colour);
     context.font = '12px system-ui, sans-serif';
+    context.textAlign = 'right';
+    if (legend.scopeText) context.fillText(legend.scopeText, left + size, top + 41);
+    context.textAlign = 'left';
     context.fillText(legend.text, left, top - 7);
     context.fillStyle = bar;
     context.fillRect(left, top, size, 10);
     context.fillStyle = cssColour('--text');
-    legend.values.forEach((value, k) => {
-      context.textAlign = (['left', 'center', 'right'] as const)[k];
-      context.fillText(value, left + (k * size) / 2, top + 25);
-    });
+    for (const { part, text } of legend.ticksShown) {
+      context.textAlign = part === 0 ? 'left' : part === 1 ? 'right' : 'center';
+      context.fillText(text, left + part * size, top + 25);
+    }
+    if (lookOf(legend.map).over) {
+      context.fillStyle = OVER_COLOUR;
+      context.fillRect(left + size + 3, top, 14, 10);
+    }
   }
   return picture;
 }

@@ -1,7 +1,7 @@
 // Status, trust, facts and speed: sentences, tables and a histogram.
 
 import { groupChannels, type Channel } from '../data/channels';
-import { formatNumber, plural } from '../data/format';
+import { distinctTexts, formatNumber, plural } from '../data/format';
 import type { PageJson, TableJson } from '../data/page';
 import { stillList } from './curves';
 import { h, icon } from './dom';
@@ -75,6 +75,10 @@ function tableBlock(table: TableJson, open = false): HTMLElement {
     : h('div', { class: 'fact wide' }, h('h3', {}, table.heading), body, note);
 }
 
+export function headingOfFacts({ kind }: PageJson): string {
+  return kind === 'reduce' ? 'The part' : kind === 'sweep' ? 'Settings' : 'Model';
+}
+
 export function factsSection(page: PageJson): HTMLElement | null {
   const facts = page.facts ?? [];
   const tables = page.tables ?? [];
@@ -82,7 +86,7 @@ export function factsSection(page: PageJson): HTMLElement | null {
   return h(
     'section',
     { id: 'facts', class: 'card' },
-    h('div', { class: 'section-head' }, h('h2', {}, page.kind === 'reduce' ? 'The part' : 'Model')),
+    h('div', { class: 'section-head' }, h('h2', {}, headingOfFacts(page))),
     facts.length > 0 ? h('div', { class: 'fact-grid' }, ...facts.map((fact) => h('div', { class: 'fact' }, h('h3', {}, fact.heading), tableOf({ ...fact, columns: null })))) : null,
     // The result of a page of vibrations is its first table: it stands open, on paper, too.
     ...tables.map((table, k) => tableBlock(table, page.kind === 'modes' && k === 0)),
@@ -198,10 +202,13 @@ function histogram({ edges, counts, median, percent_99 }: StepTimes): HTMLElemen
       const place = placeAmongBins(edges, value!);
       return h('div', { class: `quantile${place > 0.6 ? ' left' : ''}`, style: `left: ${(100 * place).toFixed(2)}%` }, h('span', {}, `${name} ${formatNumber(value!, 3)} ms`));
     });
-  const marks = [0, 0.25, 0.5, 0.75, 1].map((part) => h('span', {}, `${formatNumber(edges[Math.round(part * (edges.length - 1))], 2)}`));
+  // Each below its edge.
+  const marked = [...new Set([0, 0.25, 0.5, 0.75, 1].map((part) => Math.round(part * counts.length)))];
+  const texts = distinctTexts(marked.map((k) => edges[k]), 2);
+  const marks = marked.map((k, i) => h('span', { style: `left: ${((100 * k) / counts.length).toFixed(2)}%` }, texts[i]));
   return h(
     'figure',
-    { class: 'histogram', role: 'img', 'aria-label': `Histogram of the time of ${total} steps` },
+    { class: 'histogram', 'aria-label': `Histogram of the time of ${total} steps` },
     h('figcaption', {}, h('span', { class: 'plot-title' }, 'Processor time of a step'), h('span', { class: 'unit' }, 'ms'), h('span', { class: 'plot-note' }, plural(total, 'step'))),
     h('div', { class: 'bars' }, ...bars, ...lines),
     h('div', { class: 'marks' }, ...marks),

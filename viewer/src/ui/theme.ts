@@ -18,6 +18,19 @@ function tell(): void {
   for (const listener of listeners) listener(isDark());
 }
 
+let kept: string | undefined;
+
+/** For a while light, whatever the reader has chosen; then as it was. */
+export function lendLight(on: boolean): void {
+  const { dataset } = document.documentElement;
+  if (on) {
+    kept = dataset.theme;
+    dataset.theme = 'light';
+  } else if (kept === undefined) delete dataset.theme;
+  else dataset.theme = kept;
+  tell();
+}
+
 export function toggleTheme(): void {
   const theme = isDark() ? 'light' : 'dark';
   document.documentElement.dataset.theme = theme;

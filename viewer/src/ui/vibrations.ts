@@ -78,6 +78,12 @@ export class VibrationList {
     return this.rows.length;
   }
 
+  /** Of what swings [Hz]; null: it does not. */
+  get frequency(): number | null {
+    const { kind, frequency } = this.stage.scene.vibrations[this.chosen];
+    return SWINGS.includes(kind) && frequency > 0 ? frequency : null;
+  }
+
   /** What is drawn, in a line. */
   get caption(): string {
     const vibration = this.stage.scene.vibrations[this.chosen];

@@ -4,6 +4,7 @@ import type { Channel } from '../data/channels';
 import type { SceneData } from '../data/scene_data';
 import { Player } from '../motion/player';
 import type { Part } from '../scene/connections';
+import { keepFree } from '../scene/labels';
 import { Stage, type ViewName } from '../scene/stage';
 import { ArrowKey } from './arrow_key';
 import { BodyList } from './body_list';
@@ -11,6 +12,7 @@ import { Colours } from './colours';
 import { Display } from './display';
 import { button, h } from './dom';
 import { buildGizmo } from './gizmo';
+import { HotSpotList } from './hot_spots';
 import type { Hub } from './hub';
 import { Legend } from './legend';
 import { ModeList, SWING } from './modes';
@@ -42,6 +44,7 @@ export class ViewSection {
   private readonly caption = h('div', { class: 'view-caption', 'aria-live': 'polite' });
   readonly legend = new Legend();
   private readonly arrowKey: ArrowKey;
+  readonly hotSpots: HotSpotList;
   private readonly selection: Selection;
   private readonly bar: PlayerBar;
   private readonly frame: HTMLElement;
@@ -52,6 +55,7 @@ export class ViewSection {
   private before = 0;
   private frames = 0;
   private since = 0;
+  private playedBefore = 0;
   rate = 0;
 
   constructor(scene: SceneData, hub: Hub, channels: Channel[], title: string) {
@@ -60,7 +64,11 @@ export class ViewSection {
     this.player = new Player(instants(scene));
     hub.player = this.player;
     this.player.onTime(() => hub.tellTime());
-    const colours = new Colours(scene);
+    const colours = new Colours(scene, {
+      motion: this.stage.motion,
+      visible: (body) => this.stage.bodies[body].group.visible,
+      chosen: () => this.stage.selected?.body ?? -1,
+    });
     if (scene.kind === 'reduce') {
       colours.setRange(null, ModeList.range(scene));
       this.modes = new ModeList(this.stage, this.player);
@@ -81,7 +89,12 @@ export class ViewSection {
     for (const body of scene.bodies) if (!body.recorded) this.bodies.set(body.index, false);
     this.selection = new Selection(this.stage, hub, colours.largest, channels);
     this.arrowKey = new ArrowKey(this.stage);
-    this.bar = new PlayerBar(this.player, 's');
+    this.hotSpots = new HotSpotList(this.stage, this.player, (spot) => {
+      this.bodies.set(spot.body, true);
+      if (!colours.isStress(this.display.shownField)) this.display.setField('Von Mises stress');
+      this.choose(spot.body, spot.vertex, false);
+    });
+    this.bar = new PlayerBar(this.player, this.modes);
     this.stage.canvas.className = 'canvas';
     this.stage.canvas.tabIndex = 0;
     this.stage.canvas.setAttribute('aria-label', 'The model in three dimensions. Drag to turn, wheel to come nearer, right button to move.');
@@ -95,15 +108,23 @@ export class ViewSection {
     );
     this.frame = h('div', { class: 'frame' }, this.stage.canvas, tools, buildGizmo(this.stage), this.arrowKey.element, this.legend.element, this.stage.rest ? this.caption : null);
     const side = this.buildSide();
-    this.element = h('section', { id: 'view', class: 'card view', 'aria-label': '3-D view' }, h('div', { class: 'view-main' }, this.frame, this.player.moves ? this.bar.element : null), side);
+    this.element = h('section', { id: 'view', class: 'card view', 'aria-label': '3-D view' }, h('h2', { class: 'unseen' }, '3-D view'), h('div', { class: 'view-main' }, this.frame, this.player.moves ? this.bar.element : null), side);
     this.listenToPointer();
-    this.player.onTime(() => this.stage.go(this.player.time));
+    this.player.onTime(() => {
+      this.stage.go(this.player.time);
+      this.display.keepUp();
+    });
     new ResizeObserver(() => this.resize()).observe(this.frame);
-    window.addEventListener('beforeprint', () => this.stage.draw(true));
+    new ResizeObserver(() => this.keepNamesFree()).observe(this.legend.element);
+    window.addEventListener('beforeprint', () => {
+      this.resize();
+      this.stage.draw(true);
+    });
   }
 
   /** After the section has its place on the page. */
   start(): void {
+    this.keepNamesFree();
     this.stage.resize(this.frame.clientWidth, this.frame.clientHeight);
     this.stage.standard('iso');
     if (this.modes && !window.matchMedia('(prefers-reduced-motion: reduce)').matches) this.player.play();
@@ -162,13 +183,15 @@ export class ViewSection {
     this.before = now;
     const begin = performance.now();
     this.player.advance(seconds);
+    this.display.keepUp();
     if (this.stage.draw()) {
       this.scriptTimes[this.scriptCount++ % this.scriptTimes.length] = performance.now() - begin;
       ++this.frames;
     }
     if (now - this.since > 500) {
       this.rate = (1000 * this.frames) / (now - this.since);
-      this.bar.showRate(this.rate);
+      this.bar.showRate(this.rate, (1000 * (this.player.played - this.playedBefore)) / (now - this.since));
+      this.playedBefore = this.player.played;
       this.frames = 0;
       this.since = now;
     }
@@ -176,7 +199,19 @@ export class ViewSection {
 
   /** A canvas of another size is empty until it is drawn. */
   private resize(): void {
+    this.keepNamesFree();
     if (this.stage.resize(this.frame.clientWidth, this.frame.clientHeight)) this.stage.draw(true);
+  }
+
+  /** Names in the picture stand beside its tools, its scale and its axes. */
+  private keepNamesFree(): void {
+    const frame = this.frame.getBoundingClientRect();
+    const boxes = [...this.frame.children]
+      .filter((child) => child !== this.stage.canvas)
+      .map((child) => child.getBoundingClientRect())
+      .filter((box) => box.width > 0)
+      .map((box) => ({ left: box.left - frame.left, right: box.right - frame.left, top: box.top - frame.top, bottom: box.bottom - frame.top }));
+    keepFree(boxes, frame.width, frame.height);
   }
 
   private fullScreen(): void {
@@ -187,7 +222,9 @@ export class ViewSection {
   private buildSide(): HTMLElement {
     const panels: [string, HTMLElement][] = [];
     if (this.modes && this.modes.count > 0) panels.push(['Modes', this.modes.element]);
-    panels.push(['Display', this.display.element], ['Bodies', this.bodies.element], ['Selection', this.selection.element]);
+    panels.push(['Display', this.display.element], ['Bodies', this.bodies.element]);
+    if (this.hotSpots.spots.length > 0) panels.push(['Hot spots', this.hotSpots.element]);
+    panels.push(['Selection', this.selection.element]);
     const list = h('div', { class: 'tabs', role: 'tablist' });
     const side = h('div', { class: 'side no-print' }, list);
     panels.forEach(([label, content], k) => {

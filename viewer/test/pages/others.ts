@@ -106,6 +106,46 @@ export function compare(): { page: PageJson; writer: BufferWriter } {
   return { page, writer };
 }
 
+/** Twelve runs, the last of them failed: a stiffness at equal ratios and a road. */
+export function sweep(): { page: PageJson; writer: BufferWriter } {
+  const writer = new BufferWriter();
+  const stiffness = [1e3, 1e4, 1e5, 1e6];
+  const roads = ['bump', 'stairs', 'smooth'];
+  const runs = stiffness.flatMap((k, i) => roads.map((road, j) => ({ k, road, height: 10 - 2 * i + [0, 1, -3][j] })));
+  const last = runs.length - 1;
+  const time = Array.from({ length: 200 }, (_, n) => 0.01 * n);
+  const page: PageJson = {
+    schema: 1,
+    kind: 'sweep',
+    title: 'vehicle',
+    program: 'floatframe 0.1.0',
+    status: { state: 'failed', sentences: ['A study of 12 runs.'], warnings: ['1 of 12 runs failed, the first is run 12: no convergence.'] },
+    facts: [{ heading: 'Study', rows: [['model file', 'vehicle.yaml'], ['k', 'varied'], ['road', 'varied']] }],
+    study: {
+      variables: [{ name: 'k', values: runs.map(({ k }) => String(k)) }, { name: 'road', values: runs.map(({ road }) => road) }],
+      states: runs.map((_, n) => (n === last ? 'failed' : 'completed')),
+      messages: runs.map((_, n) => (n === last ? 'no convergence at 0.4 s' : '')),
+      measures: [
+        { name: 'steps', unit: '', values: writer.view('f64', runs.map(() => 200)) },
+        { name: 'chassis.z max', unit: 'm', values: writer.view('f64', runs.map(({ height }, n) => (n === last ? NaN : height))) },
+        { name: 'seat.z max', unit: 'm', values: writer.view('f64', runs.map(({ height }) => 20 - height)) },
+      ],
+      curves: {
+        channels: [{ name: 'chassis.z', unit: 'm' }, { name: 'seat.z', unit: 'm' }],
+        runs: runs.slice(0, last).map(({ height }, run) => ({
+          run,
+          channels: [0, 1],
+          time: writer.view('f64', time),
+          values: writer.view('f32', [...time.map((t) => height * Math.sin(1.6 * t)), ...time.map((t) => (20 - height) * Math.sin(1.6 * t))], [2, time.length]),
+        })),
+      },
+      ranking: { measure: 'chassis.z max', largest: false },
+      pages: { best: { run: 8, address: 'best/report.html' }, worst: { run: 1, address: 'worst/report.html' } },
+    },
+  };
+  return { page, writer };
+}
+
 /** 12 bodies of 10 000 triangles and 20 modes, 800 frames: a ring of arms that turn and bend. */
 export function large(): { page: PageJson; writer: BufferWriter } {
   const writer = new BufferWriter();
