@@ -6,6 +6,7 @@ import type { SceneData, StrokeData } from '../data/scene_data';
 import { valueAt } from '../data/series';
 import type { Motion } from '../motion/motion';
 import { rotate } from '../motion/rotation';
+import { buildPlaceSymbol, isPlaceSymbol } from './element_symbols';
 import { CUT_COLOUR, DAMPER_COLOUR, FORCE_COLOUR, GUIDE_COLOUR, JOINT_COLOUR, ROD_COLOUR, SPRING_COLOUR } from './palette';
 import { Arrow, bar, buildJoint, buildTube, buildTyre, Coil, placeBar, plain, turnTo } from './symbols';
 
@@ -129,7 +130,7 @@ export class Connections {
     if (force.picture === 'wheel') this.addTyre(force, history);
     else if (force.picture === 'torque') this.addLoad(force, history, 2);
     else if (force.picture === 'spring') this.addStrut(force);
-    else if (force.picture === 'ring') this.addRing(force);
+    else if (isPlaceSymbol(force.picture)) this.addPlaceSymbol(force);
     else if (force.picture === 'force') this.addLoad(force, history, 1);
   }
 
@@ -173,8 +174,8 @@ export class Connections {
     return [p[0] + pose[at], p[1] + pose[at + 1], p[2] + pose[at + 2]];
   };
 
-  private addRing(force: ForceJson): void {
-    const symbol = buildJoint(1, 1, 0.009 * this.size, plain(SPRING_COLOUR));
+  private addPlaceSymbol(force: ForceJson): void {
+    const symbol = buildPlaceSymbol(force.picture, 0.009 * this.size, force.radius ?? 0);
     const at = force.a >= 0 ? force.a : force.b;
     if (at < 0) return;
     const local = turnTo(force.axis ?? [0, 0, 1]);
