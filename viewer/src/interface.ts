@@ -14,6 +14,8 @@ export interface FloatframeInterface {
   worldPosition(body: number, local: Triple, modes?: Triple[] | null): Triple | null;
   vertexPosition(body: number, vertex: number): Triple | null;
   pointPosition(index: number): Triple | null;
+  /** Where a place in the world is drawn: pixels from the left and from the top of the view; null behind the camera. */
+  pixelOf(place: Triple): [number, number] | null;
   channelValue(name: string): number;
   readonly scale: number;
   setScale(scale: number): void;
@@ -84,6 +86,11 @@ export function offerInterface(view: ViewSection | null, problems: string[], cha
     pointPosition: (index) => {
       const point = view?.stage.scene.points[index];
       return view && point ? shifted(view.stage.motion.pointPosition(point, view.stage.deformation)) : null;
+    },
+    pixelOf: ([x, y, z]) => {
+      if (!view) return null;
+      const { origin } = view.stage.scene;
+      return view.stage.pixelOf(x - origin[0], y - origin[1], z - origin[2]);
     },
     channelValue: (name) => {
       const channel = channels.find((c) => c.name === name);

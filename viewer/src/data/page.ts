@@ -91,11 +91,13 @@ export interface MeshJson {
   generated?: boolean | null;
   /** "#rrggbb" */
   color?: string | null;
+  /** Where colours differ: the first triangle of each, and "#rrggbb" or null. */
+  paints?: [number, string | null][] | null;
 }
 
 export type ShapeJson =
   | MeshJson
-  | ({ kind: 'box' | 'ellipsoid'; size: Triple } & PlacedJson);
+  | ({ kind: 'box' | 'cylinder' | 'ellipsoid'; size: Triple } & PlacedJson);
 
 export interface ModesJson {
   first: number;
@@ -157,7 +159,7 @@ export interface EffortsJson {
   constants?: (number | null)[] | null;
 }
 
-export type PictureSymbol = 'none' | 'spring' | 'ring' | 'wheel' | 'force' | 'torque';
+export type PictureSymbol = 'none' | 'spring' | 'ring' | 'wheel' | 'force' | 'torque' | 'bearing' | 'bushing' | 'coupling';
 
 export interface ForceJson {
   name: string;

@@ -46,12 +46,15 @@ export interface MeshData {
   generated: boolean;
   /** "#rrggbb" that the model file gives. */
   colour: string | null;
+  /** Colours of the triangles from `first` on, null: that of the body; empty if all have one. */
+  paints: { first: number; colour: string | null }[];
   fields: FieldData[];
   stress: StressData | null;
 }
 
 export interface SolidData {
-  kind: 'box' | 'ellipsoid';
+  /** A cylinder has z as its axis. */
+  kind: 'box' | 'cylinder' | 'ellipsoid';
   size: Triple;
   position: Triple;
   quaternion: Quadruple;
@@ -196,6 +199,18 @@ function stressFields(data: StressData): FieldData[] {
   return fields;
 }
 
+function colourOf(value: unknown): string | null {
+  return typeof value === 'string' && /^#[0-9a-f]{6}$/i.test(value) ? value : null;
+}
+
+/** Empty unless they ascend from the first triangle. */
+function paintsOf(value: unknown, triangles: number): MeshData['paints'] {
+  if (!Array.isArray(value)) return [];
+  const paints = value.map((entry) => ({ first: Array.isArray(entry) ? Number(entry[0]) : NaN, colour: Array.isArray(entry) ? colourOf(entry[1]) : null }));
+  const good = paints.every(({ first }, k) => Number.isInteger(first) && first < triangles && (k === 0 ? first === 0 : first > paints[k - 1].first));
+  return good ? paints : [];
+}
+
 function readMesh(json: MeshJson, body: BodyJson, modeCount: number, frames: number, amplitudeCount: number, buffer: PageBuffer, report: Report): MeshData {
   const what = `Body "${body.name}"`;
   const vertices = buffer.read(json.vertices, `${what}, vertices`, ['f32'], [null, 3]) as Float32Array;
@@ -222,7 +237,8 @@ function readMesh(json: MeshJson, body: BodyJson, modeCount: number, frames: num
     modes: null,
     nodes: json.nodes ? optional(() => buffer.read(json.nodes!, `${what}, nodes`, ['u16', 'u32'], [count]) as Uint16Array | Uint32Array, 'Labels of nodes are left out.') : null,
     generated: json.generated === true,
-    colour: typeof json.color === 'string' && /^#[0-9a-f]{6}$/i.test(json.color) ? json.color : null,
+    colour: colourOf(json.color),
+    paints: paintsOf(json.paints, triangles.length / 3),
     fields: [],
     stress: null,
   };
@@ -281,7 +297,7 @@ function readBody(json: BodyJson, index: number, frames: number, amplitudeCount:
         const vertices = buffer.read(spider.vertices, `Body "${name}", spider`, ['u16', 'u32'], [null]);
         body.spiders.push({ point: spider.point, vertices: Uint32Array.from(vertices).filter((v) => v < vertexCount) });
       }
-    } else if (shape?.kind === 'box' || shape?.kind === 'ellipsoid') {
+    } else if (shape?.kind === 'box' || shape?.kind === 'cylinder' || shape?.kind === 'ellipsoid') {
       body.solid = { kind: shape.kind, size: triple(shape.size, [0.1, 0.1, 0.1]), position: triple(shape.position, [0, 0, 0]), quaternion: quadruple(shape.quaternion) };
     } else if (shape) {
       report(`Body "${name}": its shape is of a kind that this page does not know; it is left out.`);

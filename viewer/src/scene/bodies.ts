@@ -1,7 +1,7 @@
 // What is drawn of each body, in a group that has the body's frame.
 
-import { Box3, Color, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, type MeshPhongMaterial, Vector3 } from 'three';
-import type { BodyData, FieldData, SceneData } from '../data/scene_data';
+import { Box3, BufferAttribute, type BufferGeometry, Color, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, type MeshPhongMaterial, Vector3 } from 'three';
+import type { BodyData, FieldData, MeshData, SceneData } from '../data/scene_data';
 import type { Motion } from '../motion/motion';
 import { Bending, type SharedUniforms } from './bending';
 import { BODY_COLOURS, STILL_COLOUR } from './palette';
@@ -11,6 +11,7 @@ import { buildTriad, plain } from './symbols';
 
 const HIGHLIGHT = new Color('#2f81c7');
 const NEUTRAL = new Color('#9ba3ab');
+const WHITE = new Color('#ffffff');
 
 export class BodyView {
   readonly group = new Group();
@@ -24,9 +25,10 @@ export class BodyView {
   private back: Matrix4 | null = null;
   private readonly material: MeshPhongMaterial;
   private readonly lines: LineSegments | null = null;
-  private readonly restBox = new Box3();
+  /** The undeformed body in its frame; empty where nothing is drawn of it. */
+  readonly restBox = new Box3();
 
-  constructor(scene: SceneData, body: BodyData, shared: SharedUniforms, modelSize: number, look: { empty: boolean; ghost: boolean }) {
+  constructor(scene: SceneData, body: BodyData, shared: SharedUniforms, modelSize: number, look: { empty: boolean }) {
     this.data = body;
     this.colour = new Color(body.mesh?.colour ?? BODY_COLOURS[body.index % BODY_COLOURS.length]);
     const colour = `#${this.colour.getHexString()}`;
@@ -40,6 +42,7 @@ export class BodyView {
       this.lines = new LineSegments(surface.edges, this.bending.lines);
       this.lines.frustumCulled = false;
       this.group.add(this.mesh, this.lines);
+      if (body.mesh.paints.length > 0) paint(surface.geometry, body.mesh, this.colour, this.material);
       this.restBox.copy(surface.geometry.boundingBox!);
     } else if (look.empty) {
       this.material = plain(colour);
@@ -55,7 +58,7 @@ export class BodyView {
           );
       this.group.add(solid);
       this.measure();
-      if (look.ghost && body.solid) this.setGhost(true);
+      if (body.solid) this.setGhost(true);
     }
   }
 
@@ -81,13 +84,6 @@ export class BodyView {
     this.group.position.copy(position);
     this.group.quaternion.copy(quaternion);
     parent?.add(this.group);
-  }
-
-  box(out: Box3): Box3 {
-    this.group.updateMatrix();
-    if (this.restBox.isEmpty()) out.set(this.group.position, this.group.position);
-    else out.copy(this.restBox).applyMatrix4(this.group.matrix);
-    return out;
   }
 
   place(motion: Motion): void {
@@ -133,7 +129,8 @@ export class BodyView {
     const coloured = field === undefined ? false : field === null ? this.flexible || (this.back !== null && this.mesh !== null) : (this.data.mesh?.fields.includes(field) ?? false);
     this.bending?.colourBy(coloured ? field : undefined, range);
     // A body with a colour of its own keeps it beside a scale.
-    this.material.color.copy(neutral && !this.data.mesh?.colour ? NEUTRAL : this.colour);
+    if (this.material.vertexColors) this.material.color.copy(WHITE);
+    else this.material.color.copy(neutral && !this.data.mesh?.colour ? NEUTRAL : this.colour);
   }
 
   setSelected(selected: boolean): void {
@@ -141,7 +138,7 @@ export class BodyView {
     this.material.emissiveIntensity = selected ? 0.28 : 0;
   }
 
-  /** Seen through: a shape that stands for an inertia, or a shell, would hide what bends. */
+  /** Glass: a shape that stands for an inertia is nothing that could be seen; a shell would hide what bends. */
   setGhost(on: boolean): void {
     this.material.transparent = on;
     this.material.opacity = on ? 0.3 : 1;
@@ -166,6 +163,20 @@ export class BodyView {
     }
     if (this.triad) this.triad.visible = visible;
   }
+}
+
+/** Colours of vertices, of a surface whose triangles have several. */
+function paint(geometry: BufferGeometry, mesh: MeshData, own: Color, material: MeshPhongMaterial): void {
+  const colours = new Float32Array(3 * geometry.getAttribute('position').count);
+  const index = geometry.getIndex()!;
+  mesh.paints.forEach(({ first, colour }, k) => {
+    const end = k + 1 < mesh.paints.length ? mesh.paints[k + 1].first : index.count / 3;
+    const value = colour ? new Color(colour) : own;
+    for (let i = 3 * first; i < 3 * end; ++i) value.toArray(colours, 3 * index.getX(i));
+  });
+  geometry.setAttribute('color', new BufferAttribute(colours, 3));
+  material.vertexColors = true;
+  material.color.copy(WHITE);
 }
 
 const corner = new Vector3();

@@ -6,6 +6,7 @@ import type { SceneData, StrokeData } from '../data/scene_data';
 import type { Motion } from '../motion/motion';
 import { rotate } from '../motion/rotation';
 import { EffortArrow, effortScale, type EffortScale } from './effort_arrows';
+import { buildPlaceSymbol, isPlaceSymbol } from './element_symbols';
 import { CUT_COLOUR, DAMPER_COLOUR, GUIDE_COLOUR, JOINT_COLOUR, ROD_COLOUR, SPRING_COLOUR } from './palette';
 import { bar, buildJoint, buildTube, buildTyre, Coil, placeBar, plain, turnTo } from './symbols';
 
@@ -153,7 +154,7 @@ export class Connections {
   private addForce(force: ForceJson, part: Part): void {
     if (force.picture === 'wheel') this.addTyre(force, part);
     else if (force.picture === 'spring') this.addStrut(force, part);
-    else if (force.picture === 'ring') this.addRing(force, part);
+    else if (isPlaceSymbol(force.picture)) this.addPlaceSymbol(force, part);
   }
 
   /** A coil about a telescope. */
@@ -202,8 +203,8 @@ export class Connections {
     return [p[0] + pose[at], p[1] + pose[at + 1], p[2] + pose[at + 2]];
   };
 
-  private addRing(force: ForceJson, part: Part): void {
-    const symbol = buildJoint(1, 1, 0.009 * this.size, plain(SPRING_COLOUR));
+  private addPlaceSymbol(force: ForceJson, part: Part): void {
+    const symbol = buildPlaceSymbol(force.picture, 0.009 * this.size, force.radius ?? 0);
     const at = force.a >= 0 ? force.a : force.b;
     if (at < 0) return;
     const local = turnTo(force.axis ?? [0, 0, 1]);

@@ -12,6 +12,7 @@ import { Amplitudes, type SharedUniforms } from './bending';
 import { BodyView, radiusOf } from './bodies';
 import { Connections, type Layer, type Part } from './connections';
 import { Annotations } from './annotations';
+import { Framing, frameOf, type Cloud, type Shown } from './framing';
 import { buildRoad, Grid } from './ground';
 import { mapTexture, type MapName } from './palette';
 import { pick, rayThrough, type Pick } from './picking';
@@ -26,8 +27,6 @@ export interface ColourChoice {
   range: [number, number];
   map: MapName;
 }
-
-const turned = new Quaternion();
 
 export class Stage {
   readonly canvas = document.createElement('canvas');
@@ -59,6 +58,7 @@ export class Stage {
   private readonly shared: SharedUniforms;
   private readonly roadLooks: ReturnType<typeof buildRoad>[] = [];
   private readonly followed = new Vector3();
+  private readonly framing: Framing;
   private readonly sky = new HemisphereLight('#ffffff', '#8d9299', 1.55);
   private readonly sun = new DirectionalLight('#ffffff', 1.9);
   private readonly fill = new DirectionalLight('#dfe9f5', 0.5);
@@ -75,11 +75,10 @@ export class Stage {
     this.amplitudes = new Amplitudes(scene.amplitudeCount, this.rest?.amplitudes ?? null);
     this.shared = { amplitudes: { value: this.amplitudes.texture }, deformation: { value: 1 }, swing: { value: 1 }, colourMap: { value: mapTexture('viridis') } };
     this.size = this.modelSize();
-    const bends = scene.bodies.some((body) => body.mesh);
     // A wheel is shown by its tyre.
     const wheels = new Set(scene.forces.filter((force) => force.a >= 0 && force.picture === 'wheel').map((force) => scene.points[force.a].body));
     for (const body of scene.bodies) {
-      const look = { empty: wheels.has(body.index), ghost: bends };
+      const look = { empty: wheels.has(body.index) };
       const view = new BodyView(scene, body, this.shared, this.size, look);
       this.bodies.push(view);
       this.root.add(view.group);
@@ -90,6 +89,7 @@ export class Stage {
     this.root.add(this.still);
     this.connections = new Connections(scene, this.size);
     this.annotations = new Annotations(this);
+    this.framing = new Framing(() => this.shown());
     this.root.add(this.connections.root, this.roads);
     const level = this.groundLevel();
     for (const road of scene.roads) {
@@ -131,7 +131,11 @@ export class Stage {
       const radius = radiusOf(body);
       box.union(new Sphere(new Vector3(...at), radius).getBoundingBox(new Box3()));
     }
-    for (const point of this.scene.points) if (point.body >= -1) box.expandByPoint(new Vector3(...this.motion.pointPosition(point, 0)));
+    const points = this.scene.points.map((point) => ({ ground: point.body === -1, place: new Vector3(...this.motion.pointPosition(point, 0)) }));
+    for (const { ground, place } of points) if (!ground) box.expandByPoint(place);
+    // What stands far off on the ground is no part of the machine.
+    const near = box.clone().expandByScalar(box.getSize(new Vector3()).length());
+    for (const { ground, place } of points) if (ground && near.containsPoint(place)) box.expandByPoint(place);
     const size = box.getSize(new Vector3()).length();
     // Balls about frames are larger than what they hold.
     return size > 0 ? 0.75 * size : 1;
@@ -160,6 +164,12 @@ export class Stage {
     if (this.scene.roads.length > 0) return Math.min(...this.scene.roads.map((road) => road.profile.reduce((low, z, i) => (i % 2 ? Math.min(low, z) : low), Infinity)));
     const near = lowest >= zero - 0.12 * this.size && lowest < zero + 1.2 * this.size;
     return near ? Math.min(zero, lowest) : lowest - 0.05 * this.size;
+  }
+
+  private shown(): Shown {
+    this.root.updateMatrixWorld(true);
+    const { layers } = this.connections;
+    return { scene: this.scene, bodies: this.bodies, deformation: this.deformation, size: this.size, tyres: layers.tyres.visible, strokes: layers.springs.visible, toView: this.root.matrixWorld };
   }
 
   setTheme(dark: boolean): void {
@@ -288,58 +298,27 @@ export class Stage {
     return this.motion.toWorld(body, vertices[3 * vertex] + s * u[0], vertices[3 * vertex + 1] + s * u[1], vertices[3 * vertex + 2] + s * u[2]);
   }
 
-  private sceneBox(): Box3 {
-    const box = new Box3();
-    const part = new Box3();
-    const any = this.bodies.some((view) => view.group.visible);
-    for (const view of this.bodies) if (view.group.visible || !any) box.union(view.box(part));
-    // Modes of a part swing by a tenth of its size.
-    if (this.scene.kind === 'reduce') box.expandByScalar(Math.max(...this.scene.bodies.map((body) => 0.08 * body.size)));
-    if (this.rest) box.expandByScalar(0.04 * this.size);
-    if (this.connections.layers.tyres.visible) {
-      for (const force of this.scene.forces) {
-        if (!force.radius || force.a < 0) continue;
-        const point = this.scene.points[force.a];
-        if (point.body >= 0 && !this.bodies[point.body].group.visible) continue;
-        box.union(new Sphere(new Vector3(...this.motion.pointPosition(point, this.deformation)), force.radius).getBoundingBox(part));
-      }
-    }
-    if (this.connections.layers.springs.visible) {
-      for (const { a, points } of this.scene.strokes) {
-        const { body } = this.scene.points[a];
-        if (body >= 0 && !this.bodies[body].group.visible) continue;
-        const from = new Vector3(...this.motion.pointPosition(this.scene.points[a], this.deformation));
-        for (let i = 0; i < points.length; i += 3) {
-          const p = new Vector3(points[i], points[i + 1], points[i + 2]);
-          if (body >= 0) p.applyQuaternion(turned.fromArray(this.motion.quaternion, 4 * body));
-          box.expandByPoint(p.add(from));
-        }
-      }
-    }
-    return box.applyMatrix4(this.root.matrixWorld);
+  /** All that moves, over the whole motion; who follows a body goes on doing so. */
+  fit(direction?: Vector3): void {
+    const swings = this.shape !== null || this.rest !== null || this.scene.time.length < 2;
+    this.hold(swings ? this.framing.present(this.motion, null) : this.framing.whole(this.follow, this.followed), 1.16, direction);
   }
 
-  fit(direction?: Vector3): void {
-    this.root.updateMatrixWorld(true);
-    const box = this.sceneBox();
-    if (box.isEmpty()) return;
-    const centre = box.getCenter(new Vector3());
+  /** A body as it is now, from where the camera looks. */
+  goTo(body: number): void {
+    this.hold(this.framing.present(this.motion, [body]), 2.2);
+  }
+
+  private hold(cloud: Cloud, margin: number, direction?: Vector3): void {
+    if (cloud.empty) return;
     const from = direction?.clone() ?? this.camera.position.clone().sub(this.controls.target);
     if (from.lengthSq() === 0) from.set(...DIRECTIONS.iso);
     from.normalize();
-    const right = new Vector3().crossVectors(this.camera.up, from).normalize();
-    const up = new Vector3().crossVectors(from, right).normalize();
-    const tangent = Math.tan((this.camera.fov * Math.PI) / 360);
-    let distance = 1e-6;
-    // The distance from which all corners are inside the picture, with a margin.
-    for (let k = 0; k < 8; ++k) {
-      const corner = new Vector3(k & 1 ? box.max.x : box.min.x, k & 2 ? box.max.y : box.min.y, k & 4 ? box.max.z : box.min.z).sub(centre);
-      const depth = corner.dot(from);
-      distance = Math.max(distance, depth + (1.14 * Math.abs(corner.dot(up))) / tangent, depth + (1.1 * Math.abs(corner.dot(right))) / (tangent * this.camera.aspect));
-    }
-    distance = Math.max(distance, 0.05 * this.size);
-    this.controls.target.copy(centre);
-    this.camera.position.copy(centre).addScaledVector(from, distance);
+    // What swings goes beyond where it is: modes of a part by a tenth of its size.
+    const swing = this.scene.kind === 'reduce' ? Math.max(...this.scene.bodies.map((body) => 0.08 * body.size)) : this.rest ? 0.04 * this.size : 0;
+    const { target, distance } = frameOf(cloud, from, this.camera, margin, 0.05 * this.size, swing);
+    this.controls.target.copy(target);
+    this.camera.position.copy(target).addScaledVector(from, distance);
     this.controls.update();
     if (this.follow >= 0) this.followed.copy(this.bodyWorld(this.follow));
     for (const listener of this.viewListeners) listener();
@@ -374,6 +353,16 @@ export class Stage {
     return (2 * distance * Math.tan((this.camera.fov * Math.PI) / 360)) / Math.max(1, this.canvas.clientHeight);
   }
 
+  /** Where a place of the scene is drawn, in pixels of the page from the upper left corner; null behind the camera. */
+  pixelOf(x: number, y: number, z: number): [number, number] | null {
+    this.root.updateMatrixWorld(true);
+    this.camera.updateMatrixWorld();
+    const p = new Vector3(x, y, z).applyMatrix4(this.root.matrixWorld).applyMatrix4(this.camera.matrixWorldInverse);
+    if (p.z >= 0) return null;
+    p.applyMatrix4(this.camera.projectionMatrix);
+    return [((p.x + 1) / 2) * this.canvas.clientWidth, ((1 - p.y) / 2) * this.canvas.clientHeight];
+  }
+
   /** Draws if anything changed; true if it did. */
   draw(force = false): boolean {
     this.controls.update();
@@ -381,7 +370,7 @@ export class Stage {
     this.dirty = false;
     const distance = this.camera.position.distanceTo(this.controls.target);
     this.camera.near = Math.max(distance / 200, 1e-5 * this.size);
-    this.camera.far = distance + 30 * this.size;
+    this.camera.far = 2 * distance + 30 * this.size;
     this.camera.updateProjectionMatrix();
     this.grid.focus(this.controls.target.x, this.controls.target.y);
     this.camera.updateMatrixWorld();

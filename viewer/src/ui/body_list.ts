@@ -9,12 +9,12 @@ export class BodyList {
   private readonly rows: { element: HTMLElement; eye: HTMLButtonElement; only: HTMLButtonElement; name: HTMLButtonElement }[] = [];
   private readonly all: HTMLButtonElement;
 
-  constructor(stage: Stage, choose: (body: number) => void) {
+  constructor(stage: Stage, choose: (body: number) => void, goTo: (body: number) => void) {
     this.stage = stage;
     const list = h('ul', { class: 'body-list' });
     const bodies = stage.scene.bodies;
     for (const body of bodies) {
-      const name = h('button', { type: 'button', class: 'body-name', onclick: () => choose(body.index) }, body.name);
+      const name = h('button', { type: 'button', class: 'body-name', onclick: () => choose(body.index), ondblclick: () => goTo(body.index) }, body.name);
       const eye = button('eye', `Hide ${body.name}`, () => this.set(body.index, !stage.bodies[body.index].group.visible));
       const only = button('only', `Show only ${body.name}`, () => this.isolate(body.index));
       const kind = body.modeCount > 0 ? `${body.modeCount} modes` : 'rigid';

@@ -2,6 +2,7 @@
 
 import type { SceneData } from '../data/scene_data';
 import type { Layer } from '../scene/connections';
+import { travelling } from '../scene/framing';
 import type { BaseMap } from '../scene/palette';
 import type { Stage } from '../scene/stage';
 import type { Colours, Scope } from './colours';
@@ -214,11 +215,7 @@ export class Display {
     this.follow = h('select', { class: 'field', 'aria-label': 'Camera follows' }, h('option', { value: -1 }, 'Stands still'), ...scene.bodies.map((body) => h('option', { value: body.index }, `Follows ${body.name}`)));
     this.follow.addEventListener('change', () => this.stage.setFollow(Number(this.follow!.value)));
     this.element.append(h('div', { class: 'setting' }, h('div', { class: 'setting-head' }, 'Camera'), this.follow));
-    // A model that leaves its place is followed at its heaviest body.
-    const heaviest = scene.bodies.reduce((best, body) => ((body.mass ?? 0) > (scene.bodies[best].mass ?? 0) ? body.index : best), 0);
-    const last = 7 * (scene.bodies.length * (scene.time.length - 1) + heaviest);
-    const way = Math.hypot(...[0, 1, 2].map((i) => scene.pose[last + i] - scene.pose[7 * heaviest + i]));
-    if (way > 1.2 * this.stage.size) this.setFollow(heaviest);
+    this.setFollow(travelling(scene, this.stage.size));
   }
 
   private addLayers(scene: SceneData): void {

@@ -10,7 +10,7 @@ const KEYS: [string, string][] = [
   ['[ ]', 'slower, faster'],
   ['↑ ↓', 'another mode, where there are modes'],
   ['L', 'loop'],
-  ['F', 'fit the model into the view'],
+  ['F', 'go to what is chosen, else the whole motion (with shift: always)'],
   ['1 2 3 4', 'iso, front, side, top'],
   ['Esc', 'nothing chosen'],
   ['?', 'this help'],
@@ -20,7 +20,7 @@ const POINTER: [string, string][] = [
   ['Drag', 'turn; right button or two fingers: move'],
   ['Wheel', 'nearer, farther'],
   ['Click', 'choose a body and its node'],
-  ['Double-click beside', 'fit'],
+  ['Double-click', 'go to a body; beside it: the whole motion'],
 ];
 
 export function buildHelp(): { dialog: HTMLDialogElement; open: () => void } {
@@ -63,7 +63,7 @@ export function listenToKeys(view: ViewSection | null, help: () => void): void {
       '[': () => player.changeSpeed(-1),
       ']': () => player.changeSpeed(1),
       l: () => player.setLoop(!player.loop),
-      f: () => stage.fit(),
+      f: () => (event.shiftKey ? view.fit() : view.goToChosen()),
       1: () => stage.standard('iso'),
       2: () => stage.standard('front'),
       3: () => stage.standard('side'),

@@ -50,6 +50,9 @@ export class ViewSection {
   private readonly frame: HTMLElement;
   private readonly tabs: { button: HTMLButtonElement; panel: HTMLElement }[] = [];
   private readonly title: string;
+  private readonly goButton = button('only', 'Go to what is chosen (F)', () => this.goToChosen(), { hidden: true });
+  /** Whom the camera followed before it went to a body. */
+  private followedBefore: number | null = null;
   private readonly scriptTimes = new Float32Array(120);
   private scriptCount = 0;
   private before = 0;
@@ -85,7 +88,11 @@ export class ViewSection {
       };
       this.modes.choose(this.modes.chosen);
     }
-    this.bodies = new BodyList(this.stage, (body) => this.choose(body, null, true));
+    this.bodies = new BodyList(
+      this.stage,
+      (body) => this.choose(body, null, true),
+      (body) => this.goTo(body),
+    );
     for (const body of scene.bodies) if (!body.recorded) this.bodies.set(body.index, false);
     this.selection = new Selection(this.stage, hub, colours.largest, channels);
     this.arrowKey = new ArrowKey(this.stage);
@@ -102,7 +109,8 @@ export class ViewSection {
       'div',
       { class: 'view-tools no-print' },
       h('div', { class: 'segmented', role: 'group', 'aria-label': 'Standard views' }, ...VIEWS.map(([name, label], k) => h('button', { type: 'button', title: `${label} view (${k + 1})`, onclick: () => this.stage.standard(name) }, label))),
-      button('fit', 'Fit (F)', () => this.stage.fit()),
+      this.goButton,
+      button('fit', 'Fit (Shift+F)', () => this.fit()),
       button('camera', 'Save a picture', () => this.screenshot()),
       button('full', 'Full screen', () => this.fullScreen()),
     );
@@ -142,6 +150,7 @@ export class ViewSection {
     this.stage.select(body, vertex);
     this.bodies.choose(body);
     this.selection.show(body, vertex);
+    this.goButton.hidden = body < 0;
     if (open && body >= 0) this.openTab(this.tabs.length - 1);
   }
 
@@ -150,6 +159,30 @@ export class ViewSection {
     this.bodies.choose(-1);
     this.selection.showPart(part);
     this.openTab(this.tabs.length - 1);
+  }
+
+  /** The camera comes to a body and goes with it. */
+  goTo(body: number): void {
+    const { stage } = this;
+    if (!stage.bodies[body]) return;
+    if (stage.scene.time.length > 1) {
+      this.followedBefore ??= stage.follow;
+      this.display.setFollow(body);
+    }
+    stage.goTo(body);
+  }
+
+  goToChosen(): void {
+    const chosen = this.stage.selected?.body ?? -1;
+    if (chosen >= 0) this.goTo(chosen);
+    else this.fit();
+  }
+
+  /** Back from a body, to the whole motion. */
+  fit(): void {
+    if (this.followedBefore !== null) this.display.setFollow(this.followedBefore);
+    this.followedBefore = null;
+    this.stage.fit();
   }
 
   screenshot(): void {
@@ -266,7 +299,8 @@ export class ViewSection {
     });
     this.stage.canvas.addEventListener('dblclick', (event) => {
       const found = this.stage.pickAt(event.clientX, event.clientY);
-      if (!found) this.stage.fit();
+      if (found) this.goTo(found.body);
+      else this.fit();
     });
   }
 }

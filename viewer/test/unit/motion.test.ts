@@ -88,7 +88,7 @@ test('surfaces: sharp edges are doubled, round ones are not', () => {
     if (!place.has(key)) place.set(key, vertices.push(...p) / 3 - 1);
     return place.get(key)!;
   });
-  const mesh = { vertices: Float32Array.from(vertices), triangles: Uint32Array.from(index), normals: null, modes: null, nodes: null, generated: false, colour: null, fields: [], stress: null };
+  const mesh = { vertices: Float32Array.from(vertices), triangles: Uint32Array.from(index), normals: null, modes: null, nodes: null, generated: false, colour: null, paints: [], fields: [], stress: null };
   const surface = buildSurface(mesh);
   assert.equal(vertices.length / 3, 26);
   assert.equal(surface.geometry.getAttribute('position').count, 6 * 9);
