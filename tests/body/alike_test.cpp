@@ -43,6 +43,7 @@ TEST(LookAlike, EveryDifferenceCounts) {
   EXPECT_TRUE(differs([](FlexibleBody&, BodyShape& s) { s.lines.push_back({0, 1}); }));
   EXPECT_TRUE(differs([](FlexibleBody&, BodyShape& s) { s.bars[0].inner = 0.5; }));
   EXPECT_TRUE(differs([](FlexibleBody&, BodyShape& s) { s.bars.clear(); }));
+  EXPECT_TRUE(differs([](FlexibleBody&, BodyShape& s) { s.paints.push_back({0, "#3a6ea5"}); }));
   EXPECT_TRUE(differs([](FlexibleBody&, BodyShape& s) { s.color = "#ff0000"; }));
   EXPECT_TRUE(differs([](FlexibleBody& b, BodyShape&) { b.nodes[0].name = "rim"; }));
   EXPECT_TRUE(differs([](FlexibleBody& b, BodyShape&) { b.nodes[0].p.z() = 1.0; }));

@@ -86,6 +86,62 @@ TEST_F(BodyGeometry, IsMirroredWithItsBody) {
   EXPECT_EQ(normal(*right), Vec3::UnitY()) << "normals stay outward";
 }
 
+TEST_F(BodyGeometry, SolidsAndFilesAreOneShape) {
+  const auto shape = shape_of(read_model(model(R"(
+      - {box: [0.4, 0.2, 0.1], position: [0, 0, 1], color: "#3a6ea5"}
+      - {cylinder: {radius: 0.1, length: 0.6}, axis: y}
+      - {sphere: {radius: 0.05}, position: [2, 0, 0]}
+      - {file: parts/plate.obj, scale: 0.001, color: "#c7a777"}
+      - {cone: {radius: 0.1, length: 0.3, top: 0.02}, orientation: [1.5707963267948966, 0, 0]}
+      - {capsule: {radius: 0.1, length: "${2 * 0.1}"}, axis: -x})")));
+  ASSERT_TRUE(shape);
+  ASSERT_EQ(shape->paints.size(), 4u);
+  EXPECT_EQ(shape->color, "#3a6ea5");
+  EXPECT_EQ(shape->paints[0].color, "#3a6ea5");
+  EXPECT_EQ(shape->paints[1].first, 12) << "triangles of the box";
+  EXPECT_EQ(shape->paints[1].color, "");
+  EXPECT_EQ(shape->paints[2].color, "#c7a777");
+  EXPECT_EQ(shape->paints[3].first, shape->paints[2].first + 2);
+  const auto reach = [&](int paint, int axis, bool high) {
+    const std::size_t end =
+        paint + 1 < 4 ? shape->paints[paint + 1].first : int(shape->triangles.size());
+    double most = -1e9;
+    for (std::size_t t = shape->paints[paint].first; t < end; ++t)
+      for (const int v : shape->triangles[t])
+        most = std::max(most, (high ? 1.0 : -1.0) * shape->positions(axis, v));
+    return most;
+  };
+  EXPECT_NEAR(reach(0, 0, true), 0.2, 1e-15);
+  EXPECT_NEAR(reach(0, 2, false), -0.95, 1e-15) << "about its position";
+  EXPECT_NEAR(reach(1, 1, true), 0.3, 1e-15) << "the cylinder lies along y";
+  EXPECT_NEAR(reach(1, 0, true), 2.05, 1e-15) << "the sphere";
+  EXPECT_NEAR(reach(2, 0, true), 1.0, 1e-15) << "the file";
+  EXPECT_NEAR(reach(3, 0, true), 0.2, 1e-15) << "the capsule lies along x";
+  EXPECT_NEAR(reach(3, 1, true), 0.15, 1e-15) << "the cone is turned about x";
+}
+
+TEST_F(BodyGeometry, ErrorsOfSolidsHaveAPlace) {
+  EXPECT_EQ(errors("{box: [1, 2]}"), "m.yaml:5:21: bodies.a.geometry.box: wrong_value");
+  EXPECT_EQ(errors("{box: [1, 2, 0]}"), "m.yaml:5:28: bodies.a.geometry.box[3]: out_of_range");
+  EXPECT_EQ(errors("{box: [1, 2, 3], axis: x}"),
+            "m.yaml:5:32: bodies.a.geometry.axis: unknown_key");
+  EXPECT_EQ(errors("{cylinder: {radius: 1}}"), "m.yaml:5:16: bodies.a.geometry.cylinder: missing");
+  EXPECT_EQ(errors("{sphere: {radius: 1, length: 2}}"),
+            "m.yaml:5:36: bodies.a.geometry.sphere.length: unknown_key");
+  EXPECT_EQ(errors("{sphere: {radius: -1}, scale: 2}"),
+            "m.yaml:5:33: bodies.a.geometry.sphere.radius: out_of_range\nm.yaml:5:38: "
+            "bodies.a.geometry.scale: unknown_key");
+  EXPECT_EQ(errors("{sphere: {radius: 1e7}}"), "m.yaml:5:15: bodies.a.geometry: out_of_range");
+  EXPECT_EQ(errors("{sphere: {radius: 1}, box: [1, 1, 1]}"),
+            "m.yaml:5:24: bodies.a.geometry.sphere: exclusive");
+  EXPECT_EQ(errors("{cone: {radius: 1, length: 1}, axis: x, orientation: [0, 0, 0]}"),
+            "m.yaml:5:52: bodies.a.geometry.axis: exclusive");
+  EXPECT_EQ(errors("[]"), "m.yaml:5:15: bodies.a.geometry: wrong_count");
+  EXPECT_EQ(errors("[{box: [1, 1, 1]}, {color: \"#000000\"}]"),
+            "m.yaml:5:34: bodies.a.geometry[2]: missing");
+  EXPECT_EQ(errors("[{box: [1, 1, 1]}, 3]"), "m.yaml:5:34: bodies.a.geometry[2]: wrong_value");
+}
+
 TEST_F(BodyGeometry, ErrorsHaveAPlace) {
   EXPECT_EQ(errors("plate.obj"), "m.yaml:5:15: bodies.a.geometry: wrong_value");
   EXPECT_EQ(errors("{scale: 2}"), "m.yaml:5:5: bodies.a.geometry: missing");

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "floatframe/body/solid_shapes.hpp"
 #include "floatframe/model/model_hash.hpp"
 #include "floatframe/model_file/load_model.hpp"
 #include "floatframe/packed/pack.hpp"
@@ -168,6 +169,36 @@ TEST(PackedModel, KeepsTyreFiles) {
               return std::holds_alternative<MagicFormulaTyre>(e.kind);
             }));
   EXPECT_EQ(model_hash(PackedModel(reduced, {}).build()), model_hash(build_model(d)));
+}
+
+// What a body looks like comes through the file, several colours of its triangles with it.
+TEST(PackedModel, KeepsShapes) {
+  ModelDescription d;
+  BodyDescription body;
+  body.name = "a";
+  RigidDescription rigid{.mass = 1.0, .J_C = Mat3::Identity()};
+  rigid.shape = shape_of_solids({{BoxSolid{}, {}, "#3a6ea5"}, {SphereSolid{}, {}, ""}});
+  const auto packed = [&](const RigidDescription& r) {
+    body.kind = r;
+    d.bodies = {body};
+    return PackedModel(d, {}).to_bytes();
+  };
+  const Model built = PackedModel::from_bytes(packed(rigid)).build();
+  const BodyShape& shape = *built.bodies.at(0).data->shape;
+  EXPECT_EQ(shape.positions, rigid.shape->positions);
+  EXPECT_EQ(shape.triangles, rigid.shape->triangles);
+  ASSERT_EQ(shape.paints.size(), 2u);
+  EXPECT_EQ(shape.paints[1].first, 12);
+  EXPECT_EQ(shape.paints[0].color, "#3a6ea5");
+  // Entries that do not ascend from the first triangle, or name none.
+  for (const std::vector<int>& first : {std::vector{1, 12}, {0, 0}, {0, 1 << 20}, {0, -1}}) {
+    BodyShape bad = *rigid.shape;
+    for (std::size_t k = 0; k < 2; ++k) bad.paints[k].first = first[k];
+    RigidDescription other = rigid;
+    other.shape = std::make_shared<const BodyShape>(bad);
+    const auto bytes = packed(other);
+    EXPECT_EQ(error_of([&] { PackedModel::from_bytes(bytes); }), "damaged");
+  }
 }
 
 }  // namespace

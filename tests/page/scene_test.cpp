@@ -253,30 +253,6 @@ bodies:
               std::sqrt(2.0) * 0.5 * 12 * 0.05 * 0.05 * std::sin(M_PI / 6.0), 1e-7);
 }
 
-TEST(Scene, RigidBodiesAreBoxesOfTheirInertia) {
-  FlexibleBody body;
-  const Vec3 edges(0.3, 0.2, 0.1);
-  const double m = 6.0;
-  Mat3 J = Mat3::Zero();
-  for (int k = 0; k < 3; ++k) J(k, k) = m / 12.0 * (edges.squaredNorm() - edges[k] * edges[k]);
-  const Mat3 R = Eigen::AngleAxisd(0.4, Vec3(1, 2, 3).normalized()).toRotationMatrix();
-  body.invariants = InertiaInvariants::rigid(m, Vec3(1, 2, 3), R * J * R.transpose());
-  const SceneBox box = scene_box(body, {});
-  EXPECT_LT((box.position - Vec3(1, 2, 3)).norm(), 1e-12);
-  EXPECT_NEAR(box.axes.determinant(), 1.0, 1e-12);
-  for (int k = 0; k < 3; ++k) {  // in some order
-    int at = 0;
-    (box.size.array() - edges[k]).abs().minCoeff(&at);
-    EXPECT_NEAR(box.size[at], edges[k], 1e-9);
-    EXPECT_NEAR(std::abs(Vec3(box.axes.col(at)).dot(R.col(k))), 1.0, 1e-9);
-  }
-  body.invariants = InertiaInvariants::rigid(0.0, Vec3::Zero(), Mat3::Zero());
-  const SceneBox held = scene_box(body, {Vec3(0, 0, 0), Vec3(2, 0, 1)});
-  EXPECT_LT((held.position - Vec3(1, 0, 0.5)).norm(), 1e-15);
-  EXPECT_LT((held.size - Vec3(2, 0.1, 1)).norm(), 1e-15);
-  EXPECT_EQ(scene_box(body, {}).size, Vec3::Constant(0.05));
-}
-
 TEST(Scene, JointsForcesAndRodsNameTheirPoints) {
   Drawn d;
   draw(std::string(recorded_machine) + "outputs: {c: {force: coil}}\n", d);

@@ -23,11 +23,16 @@ bool same_bar(const BodyShape::Bar& a, const BodyShape::Bar& b) {
          a.width == b.width && a.height == b.height && a.inner == b.inner;
 }
 
+bool same_paint(const BodyShape::Paint& a, const BodyShape::Paint& b) {
+  return a.first == b.first && a.color == b.color;
+}
+
 bool same_shape(const BodyShape& a, const BodyShape& b) {
   return a.color == b.color && a.triangles == b.triangles && a.lines == b.lines &&
          a.nodes == b.nodes && same_matrix(a.positions, b.positions) &&
          same_matrix(a.modes, b.modes) &&
-         std::equal(a.bars.begin(), a.bars.end(), b.bars.begin(), b.bars.end(), same_bar);
+         std::equal(a.bars.begin(), a.bars.end(), b.bars.begin(), b.bars.end(), same_bar) &&
+         std::equal(a.paints.begin(), a.paints.end(), b.paints.begin(), b.paints.end(), same_paint);
 }
 
 }  // namespace

@@ -30,6 +30,13 @@ struct BodyShape {
 
   std::string color;  ///< "#rrggbb"; empty: that of the page
 
+  /// The colour of the triangles from `first` on, up to the next entry.
+  struct Paint {
+    int first = 0;
+    std::string color;  ///< as above
+  };
+  std::vector<Paint> paints;  ///< ascending from 0; empty: all have `color`
+
   bool empty() const noexcept { return triangles.empty() && lines.empty() && bars.empty(); }
 };
 

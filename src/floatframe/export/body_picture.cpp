@@ -59,18 +59,21 @@ class PictureBuilder {
 
   /// A cylinder as wide as a car wheel: the model does not give the width.
   void wheel(const Picture& tyre) {
-    constexpr int corners = 48;
     const Marker& m = model_.markers[tyre.a];
     const Vec3 axis = (m.X_NM.R * tyre.axis).normalized();
+    cylinder(place(m), 0.5 * tyre.width * axis, tyre.radius, Origin::wheel);
+  }
+
+  /// `half`: from its middle to the centre of an end.
+  void cylinder(const Vec3& middle, const Vec3& half, double radius, Origin origin) {
+    constexpr int corners = 48;
+    const Vec3 axis = half.normalized();
     const Vec3 across = axis.unitOrthogonal(), third = axis.cross(across);
-    const double half = 0.5 * tyre.width;
     const auto ring = [&](double side) {
       const int first = static_cast<int>(points_.size());
       for (int k = 0; k < corners; ++k) {
         const double a = 2.0 * std::numbers::pi * k / corners;
-        point(place(m) + side * half * axis +
-                  tyre.radius * (std::cos(a) * across + std::sin(a) * third),
-              Origin::wheel);
+        point(middle + side * half + radius * (std::cos(a) * across + std::sin(a) * third), origin);
       }
       return first;
     };
@@ -90,7 +93,10 @@ class PictureBuilder {
     std::vector<Vec3> held;
     for (const Marker& m : model_.markers)
       if (m.body == index_) held.push_back(place(m));
-    const SceneBox box = scene_box(*body_.data, held);
+    const SceneBox box = scene_box(*body_.data, held, scene_extent(model_));
+    if (box.round)
+      return cylinder(box.position, 0.5 * box.size.z() * box.axes.col(2), 0.5 * box.size.x(),
+                      Origin::box);
     const int first = static_cast<int>(points_.size());
     for (int k = 0; k < 8; ++k) {
       const Vec3 corner((k & 1) != 0 ? 0.5 : -0.5, (k & 2) != 0 ? 0.5 : -0.5,

@@ -178,6 +178,14 @@ void append_sum(const Model& model, const Element& element, std::span<const doub
   }
 }
 
+Picture picture_of_coupling(const Element& element) {
+  return {.symbol = Picture::Symbol::coupling,
+          .a = element.markers[0],
+          .b = element.markers[1],
+          .axis = Vec3::UnitZ(),
+          .axis_of = element.markers[0]};
+}
+
 void coupled_rows(const Model& model, const Element& element, ConstraintPart part,
                   std::vector<ConstraintPart>& parts) {
   const CoupledSum& sum = data_of<CoupledSum>(element);

@@ -80,6 +80,8 @@ void append_sum(const Model& model, const Element& element, std::span<const doub
 /// `ElementKind::rows` of an element whose data is a CoupledSum.
 void coupled_rows(const Model& model, const Element& element, ConstraintPart part,
                   std::vector<ConstraintPart>& parts);
+/// A toothed wheel at the first joint of a coupling, about its axis.
+Picture picture_of_coupling(const Element& element);
 /// Of a coupling that only holds.
 inline constexpr ElementRegime holding_regimes[] = {{.name = "anywhere", .acts = false}};
 /// With the markers of these many coordinates.

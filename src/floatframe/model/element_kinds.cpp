@@ -155,7 +155,8 @@ int state_count(const Model& model) noexcept {
 }
 
 const char* symbol_name(Picture::Symbol symbol) noexcept {
-  constexpr const char* names[] = {"none", "bar", "spring", "ring", "wheel", "force", "torque"};
+  constexpr const char* names[] = {"none",  "bar",    "spring",  "ring",    "wheel",
+                                   "force", "torque", "bearing", "bushing", "coupling"};
   return names[index_of(symbol)];
 }
 
@@ -295,7 +296,11 @@ bool build_coordinate(ElementBuild& build) {
 }
 
 Picture picture_of_coordinate(const Element& element) {
-  return {.symbol = Picture::Symbol::ring, .a = element.markers[0], .b = element.markers[1]};
+  return {.symbol = Picture::Symbol::ring,
+          .a = element.markers[0],
+          .b = element.markers[1],
+          .axis = Vec3::UnitZ(),
+          .axis_of = element.markers[0]};
 }
 
 void validate_line(const ElementCheck& check) {

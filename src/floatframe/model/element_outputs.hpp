@@ -54,17 +54,20 @@ int value_index(const std::vector<std::string>& names, const std::string& word) 
 struct Picture {
   enum class Symbol {
     none,
-    bar,     ///< a straight line between two anchors
-    spring,  ///< a coil about a telescope between two anchors
-    ring,    ///< an elastic connection at one place, about its axis
-    wheel,   ///< a cylinder about its axis, and an arrow of its force upwards
-    force,   ///< an arrow along its axis
-    torque   ///< an arrow with two heads
+    bar,      ///< a straight line between two anchors
+    spring,   ///< a coil about a telescope between two anchors
+    ring,     ///< an elastic connection at one place, about its axis
+    wheel,    ///< a cylinder about its axis, and an arrow of its force upwards
+    force,    ///< an arrow along its axis
+    torque,   ///< an arrow with two heads
+    bearing,  ///< rings with balls between them about its axis
+    bushing,  ///< rubber between two tubes about its axis
+    coupling  ///< a toothed wheel about its axis
   } symbol = Symbol::none;
   int a = -1, b = -1;                ///< markers of the anchors; -1: there is no second
   Vec3 axis = Vec3::Zero();          ///< in the axes of marker `axis_of`; zero: none
   int axis_of = -1;                  ///< -1: the world
-  double radius = 0.0, width = 0.0;  ///< of a wheel [m]
+  double radius = 0.0, width = 0.0;  ///< of a wheel; radius of a bearing [m]
 };
 const char* symbol_name(Picture::Symbol symbol) noexcept;
 Picture picture_of(const Element& element);

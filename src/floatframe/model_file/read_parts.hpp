@@ -122,7 +122,7 @@ std::optional<Pose> read_alignment(const ModelInstance& self, const YamlValue& v
 void add_errors(const YamlValue& value, const InputError& error);
 /// A rotation vector, a unit quaternion or {roll, pitch, yaw}.
 Mat3 read_orientation(const YamlValue& value, double* largest_angle = nullptr);
-/// The key `geometry` of a body: the triangles of a file in the body's frame. nullptr and errors if
+/// The key `geometry` of a body: solids and files as triangles in its frame. nullptr and errors if
 /// they cannot be shown.
 std::shared_ptr<const BodyShape> read_body_geometry(const ModelInstance& self,
                                                     const YamlValue& value);

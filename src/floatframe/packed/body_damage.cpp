@@ -78,6 +78,12 @@ const char* shape_damage(const BodyShape& x, Eigen::Index modes, std::size_t nod
   good = good && (x.nodes.empty() || x.nodes.size() == n);
   for (const auto& bar : x.bars)
     good = good && is_index(bar.from, nodes) && is_index(bar.to, nodes);
+  int before = -1;  // paints begin with the first triangle and ascend
+  for (const auto& paint : x.paints) {
+    good = good && is_index(paint.first, x.triangles.size()) && paint.first > before &&
+           (before >= 0 || paint.first == 0);
+    before = paint.first;
+  }
   return good ? nullptr : "a shape whose points do not exist";
 }
 

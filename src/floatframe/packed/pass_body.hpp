@@ -90,9 +90,14 @@ void pass(S& s, BodyShape::Bar& b) {
   all(s, from, to, y, round, width, height, inner);
 }
 template <class S>
+void pass(S& s, BodyShape::Paint& p) {
+  auto& [first, color] = p;
+  all(s, first, color);
+}
+template <class S>
 void pass(S& s, BodyShape& x) {
-  auto& [positions, modes, triangles, lines, nodes, bars, color] = x;
-  all(s, positions, modes, triangles, lines, nodes, bars, color);
+  auto& [positions, modes, triangles, lines, nodes, bars, color, paints] = x;
+  all(s, positions, modes, triangles, lines, nodes, bars, color, paints);
 }
 template <class S>
 void pass(S& s, StressGroup& g) {

@@ -41,6 +41,7 @@ class SceneWriter {
         buffer_(buffer),
         stress_(model, frames, buffer),
         efforts_(frames.efforts),
+        extent_(scene_extent(model)),
         places_(model.bodies.size()) {}
 
   Json write() {
@@ -220,8 +221,13 @@ class SceneWriter {
                               [&](const auto& other) { return look_alike(*other.first, data); });
     if (known == shapes_.end()) known = shapes_.insert(shapes_.end(), {&data, shape(data)});
     Shape mine = known->second;
-    if (mine.json.is_null() && !has_tyre(index)) mine = box(data, places_[index]);
-    if (mine.json.is_null()) mine.bound = b.length;
+    if (mine.json.is_null()) {
+      // A wheel is drawn as its tyre; a box would extend beyond it.
+      if (has_tyre(index))
+        mine.bound = b.length;
+      else
+        mine = box(data, places_[index]);
+    }
     for (const Vec3& p : places_[index]) mine.bound = std::max(mine.bound, p.norm());
     out["shape"] = mine.json;
     out["stress"] = stress_.of(data, known->second.stress, first, index);
@@ -233,7 +239,6 @@ class SceneWriter {
     return out;
   }
 
-  /// A wheel is drawn as its tyre; a box would extend beyond it.
   bool has_tyre(std::size_t body) const {
     return std::any_of(model_.elements.begin(), model_.elements.end(), [&](const Element& e) {
       return is_wheel_of(model_, e, static_cast<int>(body));
@@ -293,14 +298,18 @@ class SceneWriter {
       j["nodes"] = buffer_.add(std::span<const std::uint32_t>(mesh.nodes), {vertices});
     j["generated"] = mesh.generated;
     if (!data.shape->color.empty()) j["color"] = data.shape->color;
+    for (const BodyShape::Paint& p : data.shape->paints)
+      j["paints"].push_back({p.first, p.color.empty() ? Json() : Json(p.color)});
     out.stress = stress_.shape(data);
     return out;
   }
 
-  static Shape box(const FlexibleBody& data, const std::vector<Vec3>& places) {
-    const SceneBox box = scene_box(data, places);
+  /// Empty of a dummy: it is drawn by its points.
+  Shape box(const FlexibleBody& data, const std::vector<Vec3>& places) const {
+    const SceneBox box = scene_box(data, places, extent_);
     Shape out;
-    out.json = {{"kind", "box"},
+    if (box.dummy) return out;
+    out.json = {{"kind", box.round ? "cylinder" : "box"},
                 {"size", triple(box.size)},
                 {"position", triple(box.position)},
                 {"quaternion", quaternion_json(box.axes)}};
@@ -357,6 +366,7 @@ class SceneWriter {
   PageBuffer& buffer_;
   SceneStressWriter stress_;
   EffortWriter efforts_;
+  SceneExtent extent_;
   std::vector<std::vector<Vec3>> places_;  ///< points on each body
   std::map<int, int> point_of_;            ///< index of the point of a marker
   std::set<std::pair<int, int>> held_;     ///< (body, node) pairs that have a point

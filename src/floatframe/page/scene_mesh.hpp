@@ -24,12 +24,25 @@ SceneMesh scene_mesh(const FlexibleBody& body);
 /// Opposite to gravity, along a world axis.
 Vec3 scene_up(const Model& model);
 
-/// A box with the mass and inertia of a body, or the bounding box of its points if it has no mass.
+/// What the bodies of a model have in common, by which a single one is judged.
+struct SceneExtent {
+  double mass = 0.0;   ///< of all bodies [kg]
+  double reach = 0.0;  ///< diagonal of the box about their points, design configuration [m]
+};
+SceneExtent scene_extent(const Model& model);
+
+/// A box with the mass and inertia of a body, or, where two principal moments are equal, a
+/// cylinder; no larger than the points of the body. Of a body without mass the box about these.
 struct SceneBox {
   Vec3 size = Vec3::Zero(), position = Vec3::Zero();
   Mat3 axes = Mat3::Identity();
+  bool round = false;  ///< a cylinder about the third axis, size[0] = size[1] its diameter
+  /// It stands for nothing that could be seen: no mass, or next to none in far too large a box, as
+  /// of bodies that only carry others.
+  bool dummy = false;
 };
 /// `points`: attachment points of joints and forces on the body, body frame [m].
-SceneBox scene_box(const FlexibleBody& body, const std::vector<Vec3>& points);
+SceneBox scene_box(const FlexibleBody& body, const std::vector<Vec3>& points,
+                   const SceneExtent& extent);
 
 }  // namespace floatframe

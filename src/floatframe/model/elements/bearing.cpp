@@ -212,7 +212,7 @@ bool bearing_build(ElementBuild& b) {
 }
 
 Picture bearing_picture(const Element& element) {
-  return {.symbol = Picture::Symbol::ring,
+  return {.symbol = Picture::Symbol::bearing,
           .a = element.markers[0],
           .b = element.markers[1],
           .axis = Vec3::UnitZ(),

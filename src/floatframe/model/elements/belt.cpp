@@ -131,7 +131,7 @@ constinit const ElementKind belt_element = {
     .rows = belt_rows,
     .gives_way = [](const ElementKeys& k) { return std::get<BeltDrive>(k).stiffness.has_value(); },
     .dual = belt_law<Dual>,
-    .picture = picture_of_coordinate,
+    .picture = picture_of_coupling,
     .strokes = belt_strokes,
     .regimes = std::span(coupled_spring_regimes).first(2)};
 

@@ -74,6 +74,7 @@ constinit const ElementKind bevel_gear_element = {
     .validate = bevel_gear_validate,
     .build = bevel_gear_build,
     .rows = coupled_rows,
+    .picture = picture_of_coupling,
     .strokes = bevel_gear_strokes,
     .regimes = holding_regimes};
 

@@ -220,7 +220,7 @@ bool bushing_ends(const Element& f) noexcept {
 }
 
 Picture bushing_picture(const Element& element) {
-  return {.symbol = Picture::Symbol::ring,
+  return {.symbol = Picture::Symbol::bushing,
           .a = element.markers[0],
           .b = element.markers[1],
           .axis = Vec3::UnitZ(),

@@ -215,6 +215,7 @@ constinit const ElementKind cam_element = {
     .validate = cam_validate,
     .build = cam_build,
     .rows = cam_rows,
+    .picture = picture_of_coupling,
     .strokes = cam_strokes,
     .regimes = holding_regimes};
 

@@ -84,6 +84,7 @@ constinit const ElementKind coupling_element = {.about = "holds a sum of coordin
                                                 .validate = coupling_validate,
                                                 .build = coupling_build,
                                                 .rows = coupling_rows,
+                                                .picture = picture_of_coupling,
                                                 .regimes = holding_regimes};
 
 constinit const ExampleMaker coupling_examples = coupling_example;

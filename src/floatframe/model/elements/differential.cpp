@@ -53,6 +53,7 @@ constinit const ElementKind differential_element = {
     .validate = [](const ElementCheck& check) { validate_coordinates(check); },
     .build = differential_build,
     .rows = coupled_rows,
+    .picture = picture_of_coupling,
     .strokes = differential_strokes,
     .regimes = holding_regimes};
 

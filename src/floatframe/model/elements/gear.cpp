@@ -274,7 +274,7 @@ constinit const ElementKind gear_element = {
     .mirror = gear_mirror,
     .dual = gear_law<Dual>,
     .side = gear_side,
-    .picture = picture_of_coordinate,
+    .picture = picture_of_coupling,
     .strokes = gear_strokes,
     .regimes = coupled_spring_regimes};
 

@@ -182,11 +182,12 @@ void journal_bearing_note(const Element& element, const SystemMotion& start,
 }
 
 Picture journal_bearing_picture(const Element& element) {
-  return {.symbol = Picture::Symbol::ring,
+  return {.symbol = Picture::Symbol::bearing,
           .a = element.markers[0],
           .b = element.markers[1],
           .axis = Vec3::UnitZ(),
-          .axis_of = element.markers[0]};
+          .axis_of = element.markers[0],
+          .radius = std::get<JournalBearing>(*element.keys).radius};
 }
 
 using JournalKeys = ContactKeys<JournalBearing>;

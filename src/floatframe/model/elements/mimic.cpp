@@ -58,6 +58,7 @@ constinit const ElementKind mimic_element = {
     .validate = mimic_validate,
     .build = mimic_build,
     .rows = coupled_rows,
+    .picture = picture_of_coupling,
     .regimes = holding_regimes};
 
 constinit const ExampleMaker mimic_examples = mimic_example;

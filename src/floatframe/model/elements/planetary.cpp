@@ -105,6 +105,7 @@ constinit const ElementKind planetary_element = {
     .validate = planetary_validate,
     .build = planetary_build,
     .rows = coupled_rows,
+    .picture = picture_of_coupling,
     .strokes = planetary_strokes,
     .regimes = holding_regimes};
 

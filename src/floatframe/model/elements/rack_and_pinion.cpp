@@ -73,6 +73,7 @@ constinit const ElementKind rack_and_pinion_element = {
     .validate = [](const ElementCheck& check) { validate_coordinates(check); },
     .build = rack_and_pinion_build,
     .rows = coupled_rows,
+    .picture = picture_of_coupling,
     .strokes = rack_and_pinion_strokes,
     .regimes = holding_regimes};
 

@@ -99,6 +99,7 @@ constinit const ElementKind screw_element = {
     .validate = screw_validate,
     .build = screw_build,
     .rows = coupled_rows,
+    .picture = picture_of_coupling,
     .strokes = screw_strokes,
     .regimes = holding_regimes};
 
