@@ -53,6 +53,7 @@ export class ViewSection {
   private readonly goButton = button('only', 'Go to what is chosen (F)', () => this.goToChosen(), { hidden: true });
   /** Whom the camera followed before it went to a body. */
   private followedBefore: number | null = null;
+  private readonly paper = h('canvas', { class: 'paper-picture', 'aria-hidden': 'true' });
   private readonly scriptTimes = new Float32Array(120);
   private scriptCount = 0;
   private before = 0;
@@ -114,7 +115,7 @@ export class ViewSection {
       button('camera', 'Save a picture', () => this.screenshot()),
       button('full', 'Full screen', () => this.fullScreen()),
     );
-    this.frame = h('div', { class: 'frame' }, this.stage.canvas, tools, buildGizmo(this.stage), this.arrowKey.element, this.legend.element, this.stage.rest ? this.caption : null);
+    this.frame = h('div', { class: 'frame' }, this.stage.canvas, this.paper, tools, buildGizmo(this.stage), this.arrowKey.element, this.legend.element, this.stage.rest ? this.caption : null);
     const side = this.buildSide();
     this.element = h('section', { id: 'view', class: 'card view', 'aria-label': '3-D view' }, h('h2', { class: 'unseen' }, '3-D view'), h('div', { class: 'view-main' }, this.frame, this.player.moves ? this.bar.element : null), side);
     this.listenToPointer();
@@ -125,8 +126,12 @@ export class ViewSection {
     new ResizeObserver(() => this.resize()).observe(this.frame);
     new ResizeObserver(() => this.keepNamesFree()).observe(this.legend.element);
     window.addEventListener('beforeprint', () => {
-      this.resize();
+      // What WebGL has drawn may not reach the paper at its new size: a copy does.
       this.stage.draw(true);
+      const { width, height } = this.stage.canvas;
+      Object.assign(this.paper, { width, height }).getContext('2d')!.drawImage(this.stage.canvas, 0, 0);
+      // The bar of its scale has the size of the paper.
+      this.resize();
     });
   }
 
@@ -240,7 +245,7 @@ export class ViewSection {
   private keepNamesFree(): void {
     const frame = this.frame.getBoundingClientRect();
     const boxes = [...this.frame.children]
-      .filter((child) => child !== this.stage.canvas)
+      .filter((child) => child !== this.stage.canvas && child !== this.paper)
       .map((child) => child.getBoundingClientRect())
       .filter((box) => box.width > 0)
       .map((box) => ({ left: box.left - frame.left, right: box.right - frame.left, top: box.top - frame.top, bottom: box.bottom - frame.top }));
