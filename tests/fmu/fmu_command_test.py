@@ -116,6 +116,9 @@ class FmuCommand(unittest.TestCase):
         self.assertEqual(program("fmu", CAR.resolve(), "-o", out).returncode, 2)
         self.assertEqual(out.read_text(), "of somebody else")
         self.assertEqual(program("fmu", CAR.resolve(), "-o", out, "--overwrite").returncode, 0)
+        done = program("check", out)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("zip archive", done.stderr)
 
     def test_the_model_is_not_overwritten(self):
         model = self.folder / "car.yaml"

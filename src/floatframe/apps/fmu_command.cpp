@@ -23,9 +23,9 @@ PackedModel model_of(const FmuArguments& a, std::vector<std::string>& fixed) {
   if (is_packed_file(a.model.path)) {
     if (!a.outputs.empty() || !a.model.settings.empty())
       throw InputError(ErrorCode::exclusive,
-                       fmt::format("{}: found --outputs or --set with a packed model, expected "
-                                   "the model file that it was packed from",
-                                   a.model.path));
+                       fmt::format("{}: found {} with a packed model, expected the model file that "
+                                   "it was packed from",
+                                   a.model.path, a.outputs.empty() ? "--set" : "--outputs"));
     return read_packed_model(a.model.path);
   }
   return packed_of(a.model, a.outputs, PackOptions::Contents::steps, fixed);

@@ -234,7 +234,10 @@ bool check_text(const std::string& file, const std::string& text, ReadErrors& er
     const auto mark = [&] { return SourceMark{file, line, static_cast<int>(k - start) + 1}; };
     const auto u = static_cast<unsigned char>(c);
     if (n == 0 || u == 0x7F || (u < 0x20 && c != '\n' && c != '\r' && c != '\t')) {
-      errors.add(ErrorCode::wrong_file, mark(), "this is not a text file (UTF-8)");
+      errors.add(ErrorCode::wrong_file, mark(),
+                 text.starts_with("PK\3\4")
+                     ? "found a zip archive, as FMUs are, expected a text file"
+                     : "this is not a text file (UTF-8)");
       return false;
     }
     if (c == '\r' && k + 1 < text.size() && text[k + 1] != '\n') {
