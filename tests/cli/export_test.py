@@ -96,7 +96,7 @@ class Export(RunCase):
         for coordinates in ("relative", "absolute"):
             self.run_model("--coordinates", coordinates)
             said = self.program("export", "out", "--vtk", "vtk", "--glb", "m.glb", "--npz", "m.npz", "--csv", "m.csv").stderr
-            self.assertEqual(said.splitlines()[0], "vtk/motion.pvd: 201 instants, 4 bodies, 218 points")
+            self.assertEqual(said.splitlines()[0], "vtk/motion.pvd: 201 instants, 4 bodies, 306 points")
             rows = self.outputs("p: {position: {body: beam, node: tip}}", "v: {velocity: {body: beam, node: tip}}",
                                 "s: {position: slider}", "w: {angular_velocity: crank}", "a: {acceleration: slider}",
                                 "y1: {modal_amplitude: beam, mode: 1}", "yd4: {modal_rate: beam, mode: 4}",

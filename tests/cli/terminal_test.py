@@ -17,7 +17,7 @@ import tempfile
 import termios
 import unittest
 
-BINARY = str(pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else "build/floatframe").resolve())
+BINARY = str(pathlib.Path(os.environ.get("FLOATFRAME_BINARY", "build/floatframe")).resolve())
 STYLE = re.compile(r"\x1b\[[0-9;]*m")
 
 MODEL = """\

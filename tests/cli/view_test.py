@@ -103,7 +103,7 @@ class View(RunCase):
         self.assertEqual([b["name"] for b in scene["bodies"]], ["crank", "slider", "disc", "beam"])
         time = numbers(data, scene["frames"]["time"])
         self.assertEqual(len(time), 201)
-        self.assertEqual([b["shape"]["kind"] for b in scene["bodies"]], ["box", "box", "box", "mesh"])
+        self.assertEqual([b["shape"]["kind"] for b in scene["bodies"]], ["cylinder", "box", "box", "mesh"])
         pose = numbers(data, scene["frames"]["pose"])
         rows = (self.folder / "out/results.csv").read_text().splitlines()[1:]
         point = next(p for p in scene["points"] if p["name"] == "tip")

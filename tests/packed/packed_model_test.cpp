@@ -197,7 +197,7 @@ TEST(PackedModel, KeepsShapes) {
     RigidDescription other = rigid;
     other.shape = std::make_shared<const BodyShape>(bad);
     const auto bytes = packed(other);
-    EXPECT_EQ(error_of([&] { PackedModel::from_bytes(bytes); }), "damaged");
+    EXPECT_EQ(error_of([&] { PackedModel::from_bytes(bytes).build(); }), "damaged");
   }
 }
 

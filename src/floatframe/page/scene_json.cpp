@@ -166,7 +166,7 @@ class SceneWriter {
       const Picture bar = picture_of(e);
       if (bar.symbol == Picture::Symbol::bar)
         rods_.push_back({{"name", e.name}, {"a", point(bar.a)}, {"b", point(bar.b)}});
-      else if (e.exerts() || e.links())
+      else if (e.exerts() || e.links() || bar.symbol != Picture::Symbol::none)
         forces_.push_back(force(k));
       for (const Stroke& s : strokes_of(model_, e)) strokes_.push_back(stroke(e, s));
     }

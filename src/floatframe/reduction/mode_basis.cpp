@@ -128,7 +128,12 @@ void report_basis(const ModeBasis& basis, HealthReport& health) {
 }
 
 ModeBasis craig_bampton_basis(const PlacedPart& part, std::optional<FixedInterface>& fixed) {
-  const auto& [model, system, R, interfaces, markers, options] = part;
+  const FeModel& model = part.model;
+  const FeSystem& system = part.system;
+  const MatX& R = part.R;
+  const std::vector<InterfacePlace>& interfaces = part.interfaces;
+  const std::vector<MarkerPlace>& markers = part.markers;
+  const PartOptions& options = part.options;
   std::vector<int> boundary;
   std::vector<std::string> names;
   for (const InterfacePlace& place : interfaces) {
@@ -168,7 +173,12 @@ ModeBasis craig_bampton_basis(const PlacedPart& part, std::optional<FixedInterfa
 
 ModeBasis free_basis(const PlacedPart& part, std::optional<FreeStructure>& structure,
                      Eigenpairs& elastic) {
-  const auto& [model, system, R, interfaces, markers, options] = part;
+  const FeModel& model = part.model;
+  const FeSystem& system = part.system;
+  const MatX& R = part.R;
+  const std::vector<InterfacePlace>& interfaces = part.interfaces;
+  const std::vector<MarkerPlace>& markers = part.markers;
+  const PartOptions& options = part.options;
   VecX softest;
   const double estimate = elastic_estimate(model, system, &softest);
   ModeBasis basis;

@@ -218,11 +218,13 @@ ElasticModes body_modes(const PlacedPart& part, const ModeBasis& basis,
 /// if its factors exist already. At least one mode is computed, to detect supports of the part.
 void check_free_modes(const PlacedPart& part, const VecX& reduced, Eigen::Index fixed_modes,
                       std::optional<FreeStructure>& structure, HealthReport& health) {
-  const auto& [model, system, R, interfaces, markers, options] = part;
+  const FeModel& model = part.model;
+  const FeSystem& system = part.system;
+  const PartOptions& options = part.options;
   if (!options.check_free_modes) return free_frequencies(model, reduced, nullptr, health);
   if (!structure) {
     const double first = reduced.size() > 0 ? reduced(0) : elastic_estimate(model, system);
-    structure.emplace(system.K, system.M, R, 0.3 * first, options.solver,
+    structure.emplace(system.K, system.M, part.R, 0.3 * first, options.solver,
                       [&](int row) { return row_label(model, system, row); });
   }
   const Eigen::Index most = std::clamp<Eigen::Index>(fixed_modes, 10, free_modes);
