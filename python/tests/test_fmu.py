@@ -90,7 +90,7 @@ def test_a_packed_model_keeps_its_parameters(write, tmp_path):
     subprocess.run([ff.program(), "pack", str(model), "-o", str(packed), "--quiet"], capture_output=True, check=True)
     report = ff.export_fmu(ff.Model.load(packed), tmp_path / "packed.fmu")
     assert report.parameters == ff.export_fmu(ff.Model.load(model), tmp_path / "model.fmu").parameters == 2
-    with pytest.raises(ff.InputError, match="packed.ffm"):
+    with pytest.raises(ff.InputError, match="model.ffm"):
         ff.export_fmu(ff.Model.load(packed, mass=3), tmp_path / "packed.fmu")
 
 

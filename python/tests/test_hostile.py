@@ -155,7 +155,7 @@ gc.collect()""",
     "arrays of on_step are emptied": """
 s = ff.Simulation(ff.Model.load(ff.example("active_damper")), step=1e-3)
 before = dict(s.inputs)
-s.on_step(lambda t, o, i: (o.__setstate__((1, (0,), np.dtype("f8"), False, b"")), i.__setstate__((1, (0,), np.dtype("f8"), False, b""))))
+s.on_step(lambda t, o, i: (o.__setstate__((1, (0,), np.dtype("f8"), False, b"")), i.__setstate__((1, (0,), np.dtype("f8"), False, b""))) and None)
 for _ in range(100): s.step()
 assert dict(s.inputs) == before
 seen = []
