@@ -40,7 +40,7 @@ def main():
         foreign = [path for path in told[0]["libraries"] if not path.startswith(folder) and not path.startswith(sys.base_prefix)
                    and not os.path.basename(path).startswith(SYSTEM) and "/lib-dynload/" not in path and "libpython" not in path]
         # What the interpreter itself is linked with is the system's.
-        plain = run(python, "-c", "import bz2, lzma, numpy, zlib; print(open('/proc/self/maps').read())", capture_output=True).stdout
+        plain = run(python, "-c", "import bz2, hashlib, lzma, numpy, zlib; print(open('/proc/self/maps').read())", capture_output=True).stdout
         foreign = [path for path in foreign if path not in plain]
         print(json.dumps(told[0]["info"], indent=1))
         print(f"import on top of numpy's: {min(t['import'] for t in told):.3f} s")
