@@ -40,7 +40,7 @@ namespace {
 
 constexpr std::string_view magic = "floatframe-model";
 /// Raised with every change of what the bytes mean.
-constexpr std::uint64_t format = 1;
+constexpr std::uint64_t format = 2;
 constexpr std::size_t format_at = 16, layout_at = 24, checksum_at = 32, head = 40;
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 32;
 

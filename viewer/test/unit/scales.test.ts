@@ -27,7 +27,7 @@ test('numbers along an axis are those of their ticks, whatever the range', () =>
   }
 });
 
-test('ends of a scale are told apart', () => {
+test('ends of a scale differ in their numbers', () => {
   assert.deepEqual(distinctTexts([100.1, 100.15, 100.2], 3), ['100.1', '100.15', '100.2']);
   assert.deepEqual(distinctTexts([0, 8.587, 17.174], 3), ['0', '8.59', '17.2']);
   assert.deepEqual(distinctTexts([2, 2], 3), ['2', '2']);
